@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace stillframe::scenegraph {
+
+/// Where background work (decoding, conversion) runs. Jobs are short, independent, and own what they touch.
+class Executor {
+ public:
+  virtual ~Executor() = default;
+  /// Runs `job` some time, or at once. Any thread.
+  virtual void submit(std::function<void()> job) = 0;
+  /// Returns when every job submitted so far has run. Not from within a job.
+  virtual void drain() = 0;
+};
+
+/// Runs each job inside submit(): tests and headless rendering, where the first picture must be the complete one.
+[[nodiscard]] std::unique_ptr<Executor> makeSynchronousExecutor();
+/// `threads` workers, at least one; the destructor runs what is queued to its end.
+[[nodiscard]] std::unique_ptr<Executor> makeThreadPoolExecutor(unsigned threads);
+
+}  // namespace stillframe::scenegraph

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <osg/Group>
+#include <osg/MatrixTransform>
+#include <osg/ref_ptr>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "tf/transform_buffer.h"
+
+namespace stillframe::scenegraph {
+
+/// The frames of one view: a MatrixTransform beneath root() for each frame that something is attached to.
+///
+/// Flat: every node holds fixed_from_frame itself (DESIGN.md §3). GUI thread only. A tick costs O(frames in the buffer)
+/// for the snapshot and writes only the matrices that changed; a tick at the same time, fixed frame and buffer revision
+/// costs nothing.
+class FrameGraph {
+ public:
+  explicit FrameGraph(std::shared_ptr<const tf::TransformBuffer> buffer);
+
+  [[nodiscard]] osg::Group& root() noexcept { return *root_; }
+  [[nodiscard]] const tf::TransformBuffer& buffer() const noexcept { return *buffer_; }
+
+  /// Poses every node for `time` in `fixed_frame`; frames that cannot be expressed are masked off.
+  /// An unknown fixed frame masks everything except what hangs in that frame itself.
+  void setTick(std::string_view fixed_frame, tf::TimePoint time);
+  [[nodiscard]] const std::string& fixedFrame() const noexcept { return fixed_frame_; }
+  [[nodiscard]] tf::TimePoint time() const noexcept { return time_; }
+
+  /// The node of `frame`, made on first use and posed at once. Each acquire() needs one release(); the node leaves the
+  /// graph with the last. The frame need not be known to the buffer yet.
+  osg::MatrixTransform& acquire(std::string_view frame);
+  void release(std::string_view frame);
+  /// The node when somebody holds it, else nullptr.
+  [[nodiscard]] osg::MatrixTransform* node(std::string_view frame) const;
+
+  /// fixed_from_frame at the current tick, or why there is none. The fixed frame in itself is always the identity.
+  [[nodiscard]] std::expected<tf::RigidTransform, tf::LookupFailure> fixedFromFrame(std::string_view frame) const;
+  /// All frames of the buffer at the current tick.
+  [[nodiscard]] const tf::Snapshot& snapshot() const noexcept { return snapshot_; }
+
+  /// Counters for tests and benchmarks: what the last setTick() did.
+  struct TickCounts {
+    std::size_t matrices_written = 0;
+    std::size_t masks_changed = 0;
+    bool snapshot_taken = false;
+  };
+  [[nodiscard]] const TickCounts& lastTick() const noexcept { return counts_; }
+
+ private:
+  struct Node {
+    osg::ref_ptr<osg::MatrixTransform> transform;
+    std::size_t users = 0;
+    tf::FrameId id = tf::kNoFrame;
+  };
+  void pose(const std::string& frame, Node& node);
+
+  std::shared_ptr<const tf::TransformBuffer> buffer_;
+  osg::ref_ptr<osg::Group> root_;
+  std::unordered_map<std::string, Node> nodes_;
+  std::string fixed_frame_;
+  tf::TimePoint time_;
+  bool ticked_ = false;
+  tf::Snapshot snapshot_;
+  TickCounts counts_;
+};
+
+}  // namespace stillframe::scenegraph

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <osg/BoundingBox>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scenegraph/executor.h"
+#include "scenegraph/frame_graph.h"
+#include "scenegraph/settings.h"
+#include "scenegraph/status.h"
+#include "scenegraph/store/dataset.h"
+
+namespace stillframe::scenegraph {
+
+/// What a layer works with, for its whole attached life. All references outlive the layer.
+struct LayerContext {
+  Dataset& dataset;
+  FrameGraph& frames;
+  Executor& executor;
+  /// Asks the view for another update; safe from any thread, called when background work has finished.
+  std::function<void()> request_update;
+};
+
+/// One moment of a view.
+struct Tick {
+  tf::TimePoint time;
+};
+
+/// Numbers a layer reports, by name ("points", "dropped"), in a fixed order.
+using LayerCounts = std::vector<std::pair<std::string, std::uint64_t>>;
+
+/// Draws one topic (or one built-in thing: axes, grid) beneath its source frame.
+///
+/// Life: construct, attach(), any number of update(), detach(); all on the GUI thread. update() never blocks. After the
+/// executor has drained and update() was called once more, everything that can be observed here is a pure function of
+/// (dataset, tick, fixed frame, settings): the layer contract test walks random paths to hold every type to that.
+/// Layers own stock osg nodes and hang them beneath FrameGraph::acquire(source frame); they subclass none.
+class Layer {
+ public:
+  virtual ~Layer() = default;
+
+  virtual void attach(const LayerContext& context) = 0;
+  /// Brings nodes, status and counts to `tick`; cheap when nothing it depends on has changed.
+  virtual void update(const Tick& tick) = 0;
+  /// Leaves the graph as if never attached. May be attached again.
+  virtual void detach() = 0;
+
+  /// Hidden layers hold no visible node, submit no work, and keep their settings.
+  virtual void setVisible(bool visible) = 0;
+  [[nodiscard]] virtual bool isVisible() const = 0;
+
+  [[nodiscard]] virtual const Status& status() const = 0;
+  [[nodiscard]] virtual LayerCounts counts() const = 0;
+  /// Frame of the data shown, "" when there is none.
+  [[nodiscard]] virtual std::string sourceFrame() const = 0;
+  /// Whether background work is under way that will change the picture.
+  [[nodiscard]] virtual bool isPending() const = 0;
+  /// Box of what is drawn, in the fixed frame, double; invalid when nothing is.
+  [[nodiscard]] virtual osg::BoundingBoxd boundsInFixed() const = 0;
+
+  /// Settings and what they may be now (a colour field's choices come from the data).
+  [[nodiscard]] virtual std::vector<SettingSpec> settingSpecs() const = 0;
+  [[nodiscard]] virtual SettingTexts settings() const = 0;
+  /// Changes what `texts` names at the next update(); on error nothing is changed.
+  virtual std::expected<void, SettingError> applySettings(const SettingTexts& texts) = 0;
+};
+
+/// One row of the registry (nodes/registry.cpp): everything a view needs to offer a kind of layer.
+struct LayerType {
+  std::string_view name;   ///< "point_cloud"; built-ins are named on the command line by it ("tf", "grid")
+  std::string_view label;  ///< for people
+  ObjectType consumes;     ///< None for a built-in without a topic
+  std::unique_ptr<Layer> (*create)(std::string_view topic);
+};
+
+}  // namespace stillframe::scenegraph

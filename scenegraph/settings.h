@@ -1,0 +1,142 @@
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace stillframe::scenegraph {
+
+/// Colour as the user writes it: sRGB-encoded components 0..1, alpha linear.
+struct Color {
+  float r = 1.0F;
+  float g = 1.0F;
+  float b = 1.0F;
+  float a = 1.0F;
+
+  friend bool operator==(const Color&, const Color&) = default;
+};
+
+/// What kind of widget and what text a setting takes.
+enum class SettingKind : std::uint8_t {
+  Bool,    ///< "true", "false" ("on", "off", "1", "0", "yes", "no" are read too)
+  Int,     ///< decimal
+  Double,  ///< 17 significant digits; "nan" never
+  Text,    ///< anything; with choices: a combo box, other text allowed unless choices_only
+  Color,   ///< "#rrggbb" or "#rrggbbaa"
+};
+
+/// One setting of a layer, view or pass: enough to build a widget, a command-line key and an XML attribute from.
+struct SettingSpec {
+  std::string key;    ///< snake_case, as in `--layer TOPIC:key=value`
+  std::string label;  ///< for people, with the unit
+  std::string help;   ///< one sentence
+  SettingKind kind = SettingKind::Text;
+  double minimum = 0.0;  ///< Int and Double; equal to maximum: unbounded
+  double maximum = 0.0;
+  std::vector<std::string> choices = {};
+  bool choices_only = false;
+};
+
+/// Settings by key in text form: what the CLI parses and layouts store. Text round-trips exactly.
+using SettingTexts = std::map<std::string, std::string>;
+
+/// A setting that was refused.
+struct SettingError {
+  std::string code;     ///< "UnknownSetting", "BadValue", "OutOfRange"
+  std::string message;  ///< names the key, the text and what would be accepted
+};
+
+/// Binds keys to members of a plain settings struct, so that a layer lists each setting once.
+///
+/// ```cpp
+/// const SettingsTable<Settings>& table() {
+///   static const SettingsTable<Settings> kTable{
+///       {{.key = "size", .label = "Size (m)", .help = "...", .kind = SettingKind::Double, .minimum = 0, .maximum =
+///       1e6},
+///        &Settings::size_m}, ...};
+/// ```
+/// Values are checked against kind, range and choices before they are stored.
+template <typename S>
+class SettingsTable {
+ public:
+  using Member = std::variant<bool S::*, std::int64_t S::*, double S::*, std::string S::*, Color S::*>;
+  struct Row {
+    SettingSpec spec;
+    Member member;
+  };
+  SettingsTable(std::initializer_list<Row> rows) : rows_(rows) {}
+
+  [[nodiscard]] std::vector<SettingSpec> specs() const;
+  [[nodiscard]] SettingTexts texts(const S& settings) const;
+  /// Sets what `texts` names; on error nothing is changed.
+  std::expected<void, SettingError> apply(const SettingTexts& texts, S& settings) const;
+
+ private:
+  std::vector<Row> rows_;
+};
+
+/// Text of one value and back; the shared part of SettingsTable.
+[[nodiscard]] std::string settingText(bool value);
+[[nodiscard]] std::string settingText(std::int64_t value);
+[[nodiscard]] std::string settingText(double value);
+[[nodiscard]] std::string settingText(const std::string& value);
+[[nodiscard]] std::string settingText(const Color& value);
+using SettingValue = std::variant<bool, std::int64_t, double, std::string, Color>;
+[[nodiscard]] std::expected<SettingValue, SettingError> parseSetting(const SettingSpec& spec, std::string_view text);
+
+template <typename S>
+std::vector<SettingSpec> SettingsTable<S>::specs() const {
+  std::vector<SettingSpec> specs;
+  for (const Row& row : rows_) {
+    specs.push_back(row.spec);
+  }
+  return specs;
+}
+
+template <typename S>
+SettingTexts SettingsTable<S>::texts(const S& settings) const {
+  SettingTexts texts;
+  for (const Row& row : rows_) {
+    texts[row.spec.key] = std::visit([&](auto member) { return settingText(settings.*member); }, row.member);
+  }
+  return texts;
+}
+
+template <typename S>
+std::expected<void, SettingError> SettingsTable<S>::apply(const SettingTexts& texts, S& settings) const {
+  S changed = settings;
+  for (const auto& [key, text] : texts) {
+    const Row* found = nullptr;
+    for (const Row& row : rows_) {
+      if (row.spec.key == key) {
+        found = &row;
+      }
+    }
+    if (found == nullptr) {
+      std::string known;
+      for (const Row& row : rows_) {
+        known += (known.empty() ? "" : ", ") + row.spec.key;
+      }
+      return std::unexpected(SettingError{"UnknownSetting", "no setting '" + key + "'; known: " + known});
+    }
+    const auto value = parseSetting(found->spec, text);
+    if (!value) {
+      return std::unexpected(value.error());
+    }
+    std::visit(
+        [&](auto member) {
+          using Value = std::remove_reference_t<decltype(changed.*member)>;
+          changed.*member = std::get<Value>(*value);
+        },
+        found->member);
+  }
+  settings = std::move(changed);
+  return {};
+}
+
+}  // namespace stillframe::scenegraph

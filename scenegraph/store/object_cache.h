@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+#include "scenegraph/store/object_store.h"
+
+namespace stillframe::scenegraph {
+
+/// Names one product of one entry: the decoded object ("object"), or what a layer made of it ("points").
+struct CacheKey {
+  TopicId topic = 0;
+  std::int64_t log_time_ns = 0;
+  std::uint64_t payload_bytes = 0;
+  std::uint64_t sequence = 0;
+  std::string product = "object";  ///< with every setting that changes the product's bytes
+
+  friend bool operator==(const CacheKey&, const CacheKey&) = default;
+};
+
+[[nodiscard]] CacheKey cacheKey(TopicId topic, const Entry& entry, std::string product = "object");
+
+/// Least-recently-used products within a bound in bytes, shared by all views of a dataset. Any thread.
+///
+/// A product in use stays alive through its shared_ptr when it is evicted. One larger than the whole bound is not kept.
+class ObjectCache {
+ public:
+  explicit ObjectCache(std::size_t max_bytes = std::size_t{1} << 30);
+
+  /// The product, marked as just used; nullptr when absent. T must be what put() stored under this key.
+  template <typename T>
+  [[nodiscard]] std::shared_ptr<const T> get(const CacheKey& key) {
+    return std::static_pointer_cast<const T>(find(key));
+  }
+  /// Keeps a product; replaces an older one of the same key.
+  void put(const CacheKey& key, std::shared_ptr<const void> product, std::size_t bytes);
+  void setMaxBytes(std::size_t max_bytes);
+  [[nodiscard]] std::size_t bytes() const;
+  [[nodiscard]] std::uint64_t hits() const;
+  [[nodiscard]] std::uint64_t misses() const;
+
+ private:
+  struct Item {
+    CacheKey key;
+    std::shared_ptr<const void> product;
+    std::size_t bytes = 0;
+  };
+  struct Hash {
+    std::size_t operator()(const CacheKey& key) const noexcept;
+  };
+  std::shared_ptr<const void> find(const CacheKey& key);
+  void evict();
+
+  mutable std::mutex mutex_;  // guards everything below
+  std::list<Item> items_;     // front = most recently used
+  std::unordered_map<CacheKey, std::list<Item>::iterator, Hash> index_;
+  std::size_t bytes_ = 0;
+  std::size_t max_bytes_;
+  std::uint64_t hits_ = 0;
+  std::uint64_t misses_ = 0;
+};
+
+}  // namespace stillframe::scenegraph

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <expected>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <shared_mutex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenegraph/objects/object.h"
+#include "tf/time.h"
+
+namespace stillframe::scenegraph {
+
+/// Dense index of a topic in its store.
+using TopicId = std::uint32_t;
+
+/// A message that could not become a canonical object.
+struct DecodeError {
+  std::string code;     ///< "TruncatedMessage", "BadDefinition", "BadChunk", ... as in Status
+  std::string message;  ///< one sentence with byte counts, field or reason; the topic and time are added by the reader
+};
+
+/// Where one message is; 32 bytes, so that an index of a long recording stays small.
+struct Entry {
+  tf::TimePoint log_time;           ///< ingest time: the tracker's clock
+  std::uint64_t payload_bytes = 0;  ///< serialised size
+  std::uint64_t locator = 0;        ///< means something to the EntrySource only
+  std::uint64_t sequence = 0;       ///< order of arrival in the store; breaks ties of log_time
+};
+
+struct TopicInfo;
+
+/// Turns entries into objects. Called from any thread, several at a time.
+class EntrySource {
+ public:
+  virtual ~EntrySource() = default;
+  [[nodiscard]] virtual std::expected<AnyObject, DecodeError> decode(const TopicInfo& topic,
+                                                                     const Entry& entry) const = 0;
+};
+
+/// What a store knows of a topic. Topics of an unknown schema are listed too, with type None and a reason.
+struct TopicInfo {
+  std::string name;
+  ObjectType type = ObjectType::None;
+  std::string schema;              ///< as in the file, "sensor_msgs/msg/PointCloud2"
+  std::string encoding;            ///< message encoding: "cdr", "ros1", "protobuf", "json"
+  std::string unsupported_reason;  ///< why type is None; "" otherwise
+  bool is_static = false;          ///< a latched transform topic (its name ends in "tf_static")
+};
+
+/// Entries of all topics of a dataset by log time, decoded lazily.
+///
+/// One writer (the loader) and many readers, without outside locking. Lookups cost O(log entries) and do not depend on
+/// the position. Topics are only ever added.
+class ObjectStore {
+ public:
+  /// Adds a topic whose messages `source` decodes; a topic of the same name and type is reused.
+  TopicId addTopic(TopicInfo info, std::shared_ptr<const EntrySource> source);
+  /// Adds entries in any order; `sequence` is assigned here. Listeners hear of it after the lock is released.
+  void append(TopicId topic, std::span<const Entry> entries);
+
+  [[nodiscard]] std::size_t topicCount() const;
+  [[nodiscard]] TopicInfo topic(TopicId topic) const;
+  [[nodiscard]] std::optional<TopicId> findTopic(std::string_view name) const;
+  [[nodiscard]] std::size_t entryCount(TopicId topic) const;
+  /// Newest entry with log_time <= t; the last to arrive when several share it.
+  [[nodiscard]] std::optional<Entry> newestAtOrBefore(TopicId topic, tf::TimePoint t) const;
+  /// All entries in (after, upto], oldest first. `after` absent: from the beginning.
+  [[nodiscard]] std::vector<Entry> range(TopicId topic, std::optional<tf::TimePoint> after, tf::TimePoint upto) const;
+  /// Entry by position in time order; nullopt past the end.
+  [[nodiscard]] std::optional<Entry> at(TopicId topic, std::size_t index) const;
+  /// First and last log time over the topic; nullopt when empty.
+  [[nodiscard]] std::optional<std::pair<tf::TimePoint, tf::TimePoint>> span(TopicId topic) const;
+
+  /// Decodes without a cache; ObjectCache is the way for layers. May block on the disk.
+  [[nodiscard]] std::expected<AnyObject, DecodeError> decode(TopicId topic, const Entry& entry) const;
+
+  /// Counts appends and new topics: equal revisions mean equal content.
+  [[nodiscard]] std::uint64_t revision() const noexcept;
+  /// Told on the writer's thread what grew (the topic); returns a token that ends it when destroyed.
+  [[nodiscard]] std::shared_ptr<void> listen(std::function<void(TopicId)> listener);
+
+ private:
+  struct TopicData {
+    TopicInfo info;
+    std::shared_ptr<const EntrySource> source;
+    std::vector<Entry> entries;  // sorted by (log_time, sequence)
+  };
+  mutable std::shared_mutex mutex_;  // guards topics_, listeners_
+  std::vector<TopicData> topics_;
+  std::vector<std::weak_ptr<std::function<void(TopicId)>>> listeners_;
+  std::uint64_t next_sequence_ = 0;
+  std::atomic<std::uint64_t> revision_ = 0;
+};
+
+}  // namespace stillframe::scenegraph

@@ -1,0 +1,48 @@
+#include "scenegraph/geometry.h"
+
+#include <map>
+#include <mutex>
+#include <osg/Shader>
+#include <osg/observer_ptr>
+#include <tuple>
+
+namespace stillframe::scenegraph {
+
+osg::ref_ptr<osg::Geometry> makeGeometry() {
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  geometry->setUseDisplayList(false);
+  geometry->setUseVertexBufferObjects(true);
+  geometry->setUseVertexArrayObject(false);
+  return geometry;
+}
+
+osg::ref_ptr<osg::Geometry> makeGeometry(const osg::BoundingBox& bound) {
+  osg::ref_ptr<osg::Geometry> geometry = makeGeometry();
+  geometry->setInitialBound(bound);
+  return geometry;
+}
+
+osg::ref_ptr<osg::Program> makeProgram(const std::string& name, const std::string& vertex_source,
+                                       const std::string& fragment_source) {
+  // Only remembers what others hold, so that the last user's release frees the program.
+  static std::mutex mutex;
+  static std::map<std::tuple<std::string, std::string, std::string>, osg::observer_ptr<osg::Program>> known;
+  const std::scoped_lock lock{mutex};
+  osg::observer_ptr<osg::Program>& entry = known[{name, vertex_source, fragment_source}];
+  osg::ref_ptr<osg::Program> program;
+  if (entry.lock(program)) {
+    return program;
+  }
+  program = new osg::Program;
+  program->setName(name);
+  osg::ref_ptr<osg::Shader> vertex = new osg::Shader{osg::Shader::VERTEX, vertex_source};
+  osg::ref_ptr<osg::Shader> fragment = new osg::Shader{osg::Shader::FRAGMENT, fragment_source};
+  vertex->setName(name + ".vert");
+  fragment->setName(name + ".frag");
+  program->addShader(vertex);
+  program->addShader(fragment);
+  entry = program;
+  return program;
+}
+
+}  // namespace stillframe::scenegraph

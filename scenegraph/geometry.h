@@ -1,0 +1,26 @@
+#pragma once
+
+#include <osg/BoundingBox>
+#include <osg/Geometry>
+#include <osg/Program>
+#include <osg/ref_ptr>
+#include <string>
+
+namespace stillframe::scenegraph {
+
+/// A geometry as every layer and pass must draw it: vertex buffers on, display list off, free of VAOs.
+///
+/// Display lists do not hold vertex attributes, and VAOs mixed with other drawables corrupt attribute bindings in a
+/// compatibility context. The bound follows the vertex array (call dirtyBound() after changing it). GUI thread.
+[[nodiscard]] osg::ref_ptr<osg::Geometry> makeGeometry();
+/// For geometry whose vertices do not tell where it is drawn (instances): `bound` counts besides the vertices' own.
+[[nodiscard]] osg::ref_ptr<osg::Geometry> makeGeometry(const osg::BoundingBox& bound);
+
+/// The program of these two shaders, the same object for every caller with the same name and text, for as long as
+/// somebody uses it: OSG then sorts by it and compiles it once a context. Any thread.
+///
+/// `name` is what compile errors and exported files call it.
+[[nodiscard]] osg::ref_ptr<osg::Program> makeProgram(const std::string& name, const std::string& vertex_source,
+                                                     const std::string& fragment_source);
+
+}  // namespace stillframe::scenegraph

@@ -25,6 +25,9 @@ if(STILLFRAME_SANITIZE)
                          -fno-sanitize-recover=all)
   target_link_options(stillframe_options INTERFACE "-fsanitize=${STILLFRAME_SANITIZE}")
 endif()
+if(STILLFRAME_FUZZ)
+  target_compile_options(stillframe_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # stillframe_library(NAME SOURCES ... LINKS ...): a static library of one room.
 function(stillframe_library name)

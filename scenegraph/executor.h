@@ -5,7 +5,8 @@
 
 namespace stillframe::scenegraph {
 
-/// Where background work (decoding, conversion) runs. Jobs are short, independent, and own what they touch.
+/// Where background work (decoding, conversion) runs. Jobs are short, independent, own what they touch and throw
+/// nothing.
 class Executor {
  public:
   virtual ~Executor() = default;

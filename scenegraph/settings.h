@@ -25,7 +25,7 @@ struct Color {
 enum class SettingKind : std::uint8_t {
   Bool,    ///< "true", "false" ("on", "off", "1", "0", "yes", "no" are read too)
   Int,     ///< decimal
-  Double,  ///< 17 significant digits; "nan" never
+  Double,  ///< shortest text that reads back exactly; "nan" and "inf" never
   Text,    ///< anything; with choices: a combo box, other text allowed unless choices_only
   Color,   ///< "#rrggbb" or "#rrggbbaa"
 };

@@ -63,7 +63,7 @@ class Dataset {
   ObjectStore store_;
   mutable ObjectCache cache_;
   std::shared_ptr<tf::TransformBuffer> transforms_;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Impl> impl_;  // after store_ and transforms_, which it uses
 };
 
 }  // namespace stillframe::scenegraph

@@ -54,7 +54,7 @@ class ObjectCache {
     std::size_t operator()(const CacheKey& key) const noexcept;
   };
   std::shared_ptr<const void> find(const CacheKey& key);
-  void evict();
+  void evict(std::list<Item>& dropped);  // moves what is over the bound to `dropped`
 
   mutable std::mutex mutex_;  // guards everything below
   std::list<Item> items_;     // front = most recently used

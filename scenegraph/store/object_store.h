@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenegraph/objects/object.h"
@@ -60,9 +61,10 @@ struct TopicInfo {
 /// the position. Topics are only ever added.
 class ObjectStore {
  public:
-  /// Adds a topic whose messages `source` decodes; a topic of the same name and type is reused.
+  /// Adds a topic whose messages `source` decodes; a topic of the same name and type is reused, with the source it has.
   TopicId addTopic(TopicInfo info, std::shared_ptr<const EntrySource> source);
-  /// Adds entries in any order; `sequence` is assigned here. Listeners hear of it after the lock is released.
+  /// Adds entries in any order; `sequence` is assigned here. O(1) an entry at the end, one merge a batch elsewhere.
+  /// Listeners hear of it after the lock is released.
   void append(TopicId topic, std::span<const Entry> entries);
 
   [[nodiscard]] std::size_t topicCount() const;
@@ -75,6 +77,8 @@ class ObjectStore {
   [[nodiscard]] std::vector<Entry> range(TopicId topic, std::optional<tf::TimePoint> after, tf::TimePoint upto) const;
   /// Entry by position in time order; nullopt past the end.
   [[nodiscard]] std::optional<Entry> at(TopicId topic, std::size_t index) const;
+  /// Entries with that sequence or a later one, in time order: what is new to a reader with a cursor.
+  [[nodiscard]] std::vector<Entry> arrivedSince(TopicId topic, std::uint64_t sequence) const;
   /// First and last log time over the topic; nullopt when empty.
   [[nodiscard]] std::optional<std::pair<tf::TimePoint, tf::TimePoint>> span(TopicId topic) const;
 
@@ -83,16 +87,20 @@ class ObjectStore {
 
   /// Counts appends and new topics: equal revisions mean equal content.
   [[nodiscard]] std::uint64_t revision() const noexcept;
-  /// Told on the writer's thread what grew (the topic); returns a token that ends it when destroyed.
+  /// Told on the writer's thread what grew (the topic); returns a token that ends it when destroyed. A call that is
+  /// under way on the writer's thread just then may still finish.
   [[nodiscard]] std::shared_ptr<void> listen(std::function<void(TopicId)> listener);
 
  private:
   struct TopicData {
-    TopicInfo info;
+    std::shared_ptr<const TopicInfo> info;
     std::shared_ptr<const EntrySource> source;
     std::vector<Entry> entries;  // sorted by (log_time, sequence)
+    bool is_in_arrival_order;    // then sorted by sequence as well
   };
-  mutable std::shared_mutex mutex_;  // guards topics_, listeners_
+  void notify(TopicId topic);
+
+  mutable std::shared_mutex mutex_;  // guards topics_, listeners_, next_sequence_
   std::vector<TopicData> topics_;
   std::vector<std::weak_ptr<std::function<void(TopicId)>>> listeners_;
   std::uint64_t next_sequence_ = 0;

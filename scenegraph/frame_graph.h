@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <expected>
 #include <memory>
 #include <osg/Group>
 #include <osg/MatrixTransform>
@@ -55,16 +56,15 @@ class FrameGraph {
   struct Node {
     osg::ref_ptr<osg::MatrixTransform> transform;
     std::size_t users = 0;
-    tf::FrameId id = tf::kNoFrame;
   };
-  void pose(const std::string& frame, Node& node);
+  void pose(const std::string& frame, osg::MatrixTransform& node);
 
   std::shared_ptr<const tf::TransformBuffer> buffer_;
   osg::ref_ptr<osg::Group> root_;
   std::unordered_map<std::string, Node> nodes_;
   std::string fixed_frame_;
   tf::TimePoint time_;
-  bool ticked_ = false;
+  bool is_ticked_ = false;
   tf::Snapshot snapshot_;
   TickCounts counts_;
 };

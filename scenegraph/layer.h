@@ -63,7 +63,7 @@ class Layer {
   [[nodiscard]] virtual std::string sourceFrame() const = 0;
   /// Whether background work is under way that will change the picture.
   [[nodiscard]] virtual bool isPending() const = 0;
-  /// Box of what is drawn, in the fixed frame, double; invalid when nothing is.
+  /// Box of what is drawn, in the fixed frame, double; invalid when nothing is, or when it is mere reference (a grid).
   [[nodiscard]] virtual osg::BoundingBoxd boundsInFixed() const = 0;
 
   /// Settings and what they may be now (a colour field's choices come from the data).

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -8,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenegraph/layer.h"
@@ -41,7 +44,8 @@ class Scene {
   /// The frame in use; "" while the dataset has no frame and none was chosen.
   [[nodiscard]] std::string fixedFrame() const;
 
-  /// Adds a layer for a topic of the store, or a built-in by its type's name. Refuses what no type consumes.
+  /// Adds a layer for a topic of the store, or a built-in by its type's name; the one that is there when it is. Refuses
+  /// what no type consumes.
   std::expected<LayerSlot*, Status> addLayer(std::string_view topic);
   /// Adds the built-ins and a layer for every drawable topic not yet there (new topics of a growing dataset too).
   void addDefaultLayers();
@@ -49,7 +53,8 @@ class Scene {
   [[nodiscard]] LayerSlot* findLayer(std::string_view topic);
   [[nodiscard]] const std::vector<std::unique_ptr<LayerSlot>>& layers() const noexcept { return layers_; }
 
-  /// Poses frames and updates layers for `time`. Returns whether the picture may have changed.
+  /// Poses frames and updates layers for `time`. Returns whether the picture may have changed: not when time, fixed
+  /// frame, data, layers and their settings are what they were and no background work has finished.
   bool update(tf::TimePoint time);
   [[nodiscard]] tf::TimePoint time() const noexcept { return time_; }
   [[nodiscard]] bool isPending() const;
@@ -57,13 +62,32 @@ class Scene {
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const;
 
  private:
+  /// All that the picture depends on beside the layers' settings.
+  struct Inputs {
+    tf::TimePoint time;
+    std::string fixed_frame;
+    std::uint64_t transforms_revision = 0;
+    std::uint64_t store_revision = 0;
+    std::uint64_t layers_revision = 0;
+    friend bool operator==(const Inputs&, const Inputs&) = default;
+  };
+  [[nodiscard]] const LayerType* findType(std::string_view topic) const;
+  [[nodiscard]] Status refusal(std::string_view topic) const;
+  bool noteSettings();
+
   std::shared_ptr<Dataset> dataset_;
   std::span<const LayerType> types_;
   FrameGraph frames_;
+  std::shared_ptr<std::atomic<bool>> has_new_work_;  // set from any thread when background work has finished
   LayerContext context_;
   std::vector<std::unique_ptr<LayerSlot>> layers_;
+  std::uint64_t layers_revision_ = 0;
   std::optional<std::string> chosen_frame_;
+  mutable std::string automatic_frame_;
+  mutable std::optional<std::uint64_t> automatic_frame_revision_;
   tf::TimePoint time_;
+  std::optional<Inputs> shown_;
+  std::vector<std::pair<bool, SettingTexts>> shown_settings_;
 };
 
 /// The frame a new view takes when nobody chose one: the first of map, world, earth, odom, base_link, base_footprint

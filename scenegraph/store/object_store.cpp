@@ -96,10 +96,10 @@ TopicInfo ObjectStore::topic(TopicId topic) const {
   return topic < topics_.size() ? *topics_[topic].info : TopicInfo{};
 }
 
-std::optional<TopicId> ObjectStore::findTopic(std::string_view name) const {
+std::optional<TopicId> ObjectStore::findTopic(std::string_view name, std::optional<ObjectType> type) const {
   const std::shared_lock lock(mutex_);
   for (TopicId id = 0; id < topics_.size(); ++id) {
-    if (topics_[id].info->name == name) {
+    if (topics_[id].info->name == name && (!type || topics_[id].info->type == *type)) {
       return id;
     }
   }

@@ -69,7 +69,8 @@ class ObjectStore {
 
   [[nodiscard]] std::size_t topicCount() const;
   [[nodiscard]] TopicInfo topic(TopicId topic) const;
-  [[nodiscard]] std::optional<TopicId> findTopic(std::string_view name) const;
+  /// The first topic of that name, or of that name and type.
+  [[nodiscard]] std::optional<TopicId> findTopic(std::string_view name, std::optional<ObjectType> type = {}) const;
   [[nodiscard]] std::size_t entryCount(TopicId topic) const;
   /// Newest entry with log_time <= t; the last to arrive when several share it.
   [[nodiscard]] std::optional<Entry> newestAtOrBefore(TopicId topic, tf::TimePoint t) const;

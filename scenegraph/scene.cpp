@@ -1,0 +1,215 @@
+#include "scenegraph/scene.h"
+
+#include <algorithm>
+#include <array>
+
+#include "scenegraph/near_names.h"
+
+namespace stillframe::scenegraph {
+namespace {
+
+/// The root of `frame`, found with the roots of those on the way remembered in `root_of`.
+tf::FrameId rootOf(tf::FrameId frame, const tf::TransformBuffer& buffer, std::vector<tf::FrameId>& root_of) {
+  std::vector<tf::FrameId> way;
+  tf::FrameId root = frame;
+  while (root < root_of.size() && root_of[root] == tf::kNoFrame) {
+    way.push_back(root);
+    const tf::FrameId parent = buffer.parent(root);
+    if (parent == tf::kNoFrame) {
+      break;
+    }
+    root = parent;
+  }
+  root = root < root_of.size() && root_of[root] != tf::kNoFrame ? root_of[root] : root;
+  for (const tf::FrameId on_way : way) {
+    root_of[on_way] = root;
+  }
+  return root;
+}
+
+}  // namespace
+
+std::string automaticFixedFrame(const tf::TransformBuffer& buffer) {
+  constexpr std::array<std::string_view, 6> kUsual = {"map", "world", "earth", "odom", "base_link", "base_footprint"};
+  for (const std::string_view name : kUsual) {
+    if (buffer.findFrame(name)) {
+      return std::string(name);
+    }
+  }
+  const std::size_t count = buffer.frameCount();
+  if (count == 0) {
+    return {};
+  }
+  std::vector<tf::FrameId> root_of(count, tf::kNoFrame);
+  std::vector<std::size_t> sizes(count, 0);
+  for (tf::FrameId frame = 0; frame < count; ++frame) {
+    if (const tf::FrameId root = rootOf(frame, buffer, root_of); root < count) {
+      ++sizes[root];
+    }
+  }
+  return buffer.frameName(static_cast<tf::FrameId>(std::ranges::max_element(sizes) - sizes.begin()));
+}
+
+Scene::Scene(std::shared_ptr<Dataset> dataset, std::span<const LayerType> types, Executor& executor,
+             std::function<void()> request_update)
+    : dataset_(std::move(dataset)),
+      types_(types),
+      frames_(dataset_->transforms()),
+      has_new_work_(std::make_shared<std::atomic<bool>>(false)),
+      context_{*dataset_, frames_, executor, [has_new_work = has_new_work_, request = std::move(request_update)] {
+                 has_new_work->store(true);
+                 if (request) {
+                   request();
+                 }
+               }} {}
+
+Scene::~Scene() {
+  while (!layers_.empty()) {
+    layers_.back()->layer->detach();
+    layers_.pop_back();
+  }
+}
+
+void Scene::setFixedFrame(std::optional<std::string> frame) {
+  if (frame) {
+    frame = std::string(tf::stripLeadingSlashes(*frame));
+  }
+  chosen_frame_ = frame && !frame->empty() ? std::move(frame) : std::nullopt;
+}
+
+std::string Scene::fixedFrame() const {
+  if (chosen_frame_) {
+    return *chosen_frame_;
+  }
+  if (const std::uint64_t revision = dataset_->transforms()->revision(); automatic_frame_revision_ != revision) {
+    automatic_frame_ = automaticFixedFrame(*dataset_->transforms());
+    automatic_frame_revision_ = revision;
+  }
+  return automatic_frame_;
+}
+
+const LayerType* Scene::findType(std::string_view topic) const {
+  for (const LayerType& type : types_) {
+    if (type.consumes == ObjectType::None ? type.name == topic
+                                          : dataset_->store().findTopic(topic, type.consumes).has_value()) {
+      return &type;
+    }
+  }
+  return nullptr;
+}
+
+Status Scene::refusal(std::string_view topic) const {
+  const ObjectStore& store = dataset_->store();
+  const std::string name(topic);
+  if (const auto id = store.findTopic(topic)) {
+    const TopicInfo info = store.topic(*id);
+    const std::string why =
+        info.type == ObjectType::None ? info.unsupported_reason : "no layer draws " + std::string(toString(info.type));
+    return {StatusLevel::Error, "UnsupportedTopic", "topic '" + name + "' (" + info.schema + ") is not drawn: " + why};
+  }
+  std::vector<std::string> known;
+  for (const LayerType& type : types_) {
+    if (type.consumes == ObjectType::None) {
+      known.emplace_back(type.name);
+    }
+  }
+  for (TopicId id = 0; id < store.topicCount(); ++id) {
+    known.push_back(store.topic(id).name);
+  }
+  const auto near = nearNames(topic, known);
+  return {StatusLevel::Error, "UnknownTopic",
+          "there is no topic '" + name + "'" +
+              (near.empty() ? "; there are " + quotedList(known) : "; did you mean " + quotedList(near) + "?")};
+}
+
+std::expected<LayerSlot*, Status> Scene::addLayer(std::string_view topic) {
+  if (LayerSlot* const slot = findLayer(topic)) {
+    return slot;
+  }
+  const LayerType* const type = findType(topic);
+  if (type == nullptr) {
+    return std::unexpected(refusal(topic));
+  }
+  layers_.push_back(std::make_unique<LayerSlot>(LayerSlot{std::string(topic), type, type->create(topic)}));
+  layers_.back()->layer->attach(context_);
+  ++layers_revision_;
+  return layers_.back().get();
+}
+
+void Scene::addDefaultLayers() {
+  for (const LayerType& type : types_) {
+    if (type.consumes == ObjectType::None) {
+      (void)addLayer(type.name);
+    }
+  }
+  const std::size_t topics = dataset_->store().topicCount();
+  for (TopicId id = 0; id < topics; ++id) {
+    const TopicInfo info = dataset_->store().topic(id);
+    if (std::ranges::any_of(types_, [&](const LayerType& type) {
+          return info.type != ObjectType::None && type.consumes == info.type;
+        })) {
+      (void)addLayer(info.name);
+    }
+  }
+}
+
+void Scene::removeLayer(std::string_view topic) {
+  const auto found =
+      std::ranges::find_if(layers_, [&](const std::unique_ptr<LayerSlot>& slot) { return slot->topic == topic; });
+  if (found != layers_.end()) {
+    (*found)->layer->detach();
+    layers_.erase(found);
+    ++layers_revision_;
+  }
+}
+
+LayerSlot* Scene::findLayer(std::string_view topic) {
+  const auto found =
+      std::ranges::find_if(layers_, [&](const std::unique_ptr<LayerSlot>& slot) { return slot->topic == topic; });
+  return found == layers_.end() ? nullptr : found->get();
+}
+
+bool Scene::update(tf::TimePoint time) {
+  const bool had_pending = isPending();
+  const bool had_new_work = has_new_work_->exchange(false);
+  // Read before the tick: what arrives during it makes the next update differ.
+  Inputs inputs{time, fixedFrame(), dataset_->transforms()->revision(), dataset_->store().revision(), layers_revision_};
+  time_ = time;
+  frames_.setTick(inputs.fixed_frame, time);
+  for (const auto& slot : layers_) {
+    slot->layer->update(Tick{time});
+  }
+  const bool has_new_settings = noteSettings();
+  const bool is_same = shown_ == inputs && !has_new_settings && !had_new_work && !had_pending;
+  shown_ = std::move(inputs);
+  return !is_same;
+}
+
+bool Scene::noteSettings() {
+  bool has_changed = shown_settings_.size() != layers_.size();
+  shown_settings_.resize(layers_.size());
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    std::pair now(layers_[i]->layer->isVisible(), layers_[i]->layer->settings());
+    if (shown_settings_[i] != now) {
+      shown_settings_[i] = std::move(now);
+      has_changed = true;
+    }
+  }
+  return has_changed;
+}
+
+bool Scene::isPending() const {
+  return std::ranges::any_of(layers_, [](const std::unique_ptr<LayerSlot>& slot) { return slot->layer->isPending(); });
+}
+
+osg::BoundingBoxd Scene::boundsInFixed() const {
+  osg::BoundingBoxd all;
+  for (const auto& slot : layers_) {
+    if (slot->layer->isVisible()) {
+      all.expandBy(slot->layer->boundsInFixed());
+    }
+  }
+  return all;
+}
+
+}  // namespace stillframe::scenegraph

@@ -3,15 +3,16 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "tf/wide_transform.h"
+
 namespace stillframe::tf {
 
 RigidTransform operator*(const RigidTransform& c_from_b, const RigidTransform& b_from_a) noexcept {
-  return {c_from_b.rotation * b_from_a.rotation, c_from_b.rotation * b_from_a.translation + c_from_b.translation};
+  return narrow(compose(c_from_b, widen(b_from_a)));
 }
 
 RigidTransform inverse(const RigidTransform& b_from_a) noexcept {
-  const glm::dquat a_from_b = glm::conjugate(b_from_a.rotation);
-  return {a_from_b, -(a_from_b * b_from_a.translation)};
+  return narrow(composeInverse(widen(b_from_a), WideTransform{}));
 }
 
 glm::dvec3 transformPoint(const RigidTransform& target_from_source, const glm::dvec3& point_in_source) noexcept {

@@ -14,6 +14,7 @@
 #include "tf/errors.h"
 #include "tf/rigid_transform.h"
 #include "tf/time.h"
+#include "tf/wide_transform.h"
 
 namespace stillframe::tf {
 
@@ -52,12 +53,20 @@ struct EdgeInfo {
   bool is_static = false;
 };
 
+/// What TransformBuffer::snapshot() works in; of no meaning outside it.
+struct SnapshotScratch {
+  std::vector<WideTransform> root_from_frame;
+  std::vector<std::uint8_t> done;
+  std::vector<FrameId> path;
+};
+
 /// Every frame resolved against one root at one time; index = FrameId. Reuse it between ticks: no allocation then.
 struct Snapshot {
   TimePoint time;
   FrameId root = kNoFrame;
   std::uint64_t revision = 0;  ///< of the buffer when it was taken
   std::vector<std::expected<RigidTransform, LookupFailure>> root_from_frame;
+  SnapshotScratch scratch;  ///< kept so that the next tick does not allocate
 };
 
 /// Thrown by the throwing twin of a lookup.
@@ -75,8 +84,8 @@ class TransformException : public std::runtime_error {
 ///
 /// One per dataset, shared by all of its views. Any thread may call anything at any time; readers do not wait for each
 /// other. Names are stripped of leading slashes. A lookup costs O(depth * log samples per edge), independent of where
-/// in the history the time lies, and does not allocate. An insert costs O(1) at the end of an edge and amortised O(log
-/// n) out of order.
+/// in the history the time lies, and does not allocate. An insert costs O(1) at the end of an edge and O(log n) out of
+/// order. An edge is static while every sample of it came from a static topic.
 class TransformBuffer {
  public:
   /// `retention_ns`: samples older than that behind the newest of their edge are dropped; nullopt keeps everything (a
@@ -88,7 +97,8 @@ class TransformBuffer {
 
   /// Adds one sample; a repeated stamp replaces. Nothing changes on refusal.
   std::expected<void, InsertError> insert(const TransformSample& sample);
-  /// Adds many under one lock; the cheap way to load a file, in any order.
+  /// Adds many, the cheap way to load a file, in any order. Readers get in between batches of a few hundred, so they
+  /// may see a part of it.
   BulkInsertReport insertBulk(std::span<const TransformSample> samples);
   /// Forgets every frame and sample. Frame ids start anew.
   void clear();

@@ -1,0 +1,142 @@
+#include "tf/edge_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "tf/sorted_stamps.h"
+#include "tf_builders.h"
+
+namespace stillframe::tf {
+namespace {
+
+constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
+constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+
+void expectMatchesUpperBound(const std::vector<std::int64_t>& stamps, std::int64_t stamp) {
+  const auto expected = std::upper_bound(stamps.begin(), stamps.end(), stamp) - stamps.begin();
+  ASSERT_EQ(countAtOrBefore(stamps, stamp), static_cast<std::size_t>(expected))
+      << stamp << " in " << stamps.size() << " stamps";
+}
+
+TEST(SortedStamps, CountsAtOrBeforeForEvenAndExtremeSpacing) {
+  std::vector<std::vector<std::int64_t>> cases{
+      {}, {0}, {kMin}, {kMax}, {kMin, kMax}, {kMin, 0, kMax}, {kMax - 1, kMax}};
+  std::vector<std::int64_t> exponential{kMin};
+  for (int bit = 0; bit < 63; ++bit) {
+    exponential.push_back(std::int64_t{1} << bit);
+  }
+  cases.push_back(exponential);
+  std::vector<std::int64_t> even(1000);
+  for (std::size_t i = 0; i < even.size(); ++i) {
+    even[i] = static_cast<std::int64_t>(i) * 10'000'000;
+  }
+  cases.push_back(even);
+  std::vector<std::int64_t> burst = even;  // a dense burst, then a gap of decades
+  burst.push_back(kMax);
+  cases.push_back(burst);
+  for (const auto& stamps : cases) {
+    for (const std::int64_t stamp : stamps) {
+      expectMatchesUpperBound(stamps, stamp);
+      expectMatchesUpperBound(stamps, stamp == kMin ? kMin : stamp - 1);
+      expectMatchesUpperBound(stamps, stamp == kMax ? kMax : stamp + 1);
+    }
+    for (const std::int64_t stamp : {kMin, std::int64_t{-1}, std::int64_t{0}, std::int64_t{1}, kMax}) {
+      expectMatchesUpperBound(stamps, stamp);
+    }
+  }
+}
+
+TEST(SortedStamps, CountsAtOrBeforeForRandomStamps) {
+  std::mt19937_64 random(7);
+  for (int round = 0; round < 300; ++round) {
+    const std::int64_t range = std::int64_t{1} << std::uniform_int_distribution<int>(1, 62)(random);
+    std::uniform_int_distribution<std::int64_t> any(-range, range);
+    std::vector<std::int64_t> stamps(std::uniform_int_distribution<std::size_t>(1, 200)(random));
+    std::generate(stamps.begin(), stamps.end(), [&] { return any(random); });
+    std::sort(stamps.begin(), stamps.end());
+    stamps.erase(std::unique(stamps.begin(), stamps.end()), stamps.end());
+    for (int query = 0; query < 50; ++query) {
+      expectMatchesUpperBound(stamps, any(random));
+      expectMatchesUpperBound(stamps, stamps[random() % stamps.size()]);
+    }
+  }
+}
+
+TEST(EdgeCache, HoldsLastSampleForwardWithoutLimit) {
+  EdgeCache cache;
+  cache.insert(TimePoint{100}, translate(1, 0, 0));
+  cache.insert(TimePoint{200}, translate(2, 0, 0));
+  EXPECT_EQ(cache.at(TimePoint{99}), nullptr);
+  EXPECT_DOUBLE_EQ(cache.at(TimePoint{100})->translation.x, 1.0);
+  EXPECT_DOUBLE_EQ(cache.at(TimePoint{199})->translation.x, 1.0);
+  EXPECT_DOUBLE_EQ(cache.at(TimePoint{200})->translation.x, 2.0);
+  EXPECT_DOUBLE_EQ(cache.at(TimePoint{kMax})->translation.x, 2.0);
+}
+
+TEST(EdgeCache, SameStampReplaces) {
+  EdgeCache cache;
+  cache.insert(TimePoint{kMin}, translate(1, 0, 0));
+  cache.insert(TimePoint{kMax}, translate(2, 0, 0));
+  cache.insert(TimePoint{kMin}, translate(3, 0, 0));
+  cache.insert(TimePoint{kMax}, translate(4, 0, 0));
+  EXPECT_EQ(cache.size(), 2u);
+  EXPECT_DOUBLE_EQ(cache.at(TimePoint{kMin})->translation.x, 3.0);
+  EXPECT_DOUBLE_EQ(cache.at(TimePoint{kMax})->translation.x, 4.0);
+}
+
+TEST(EdgeCache, AnyOrderOfArrivalEqualsAMap) {
+  std::mt19937_64 random(11);
+  for (int round = 0; round < 20; ++round) {
+    EdgeCache cache;
+    std::map<std::int64_t, double> model;
+    std::uniform_int_distribution<std::int64_t> any(-2000, 2000);
+    for (int i = 0; i < 2000; ++i) {
+      const std::int64_t stamp = round % 2 == 0 ? any(random) : i + any(random) / 100;
+      cache.insert(TimePoint{stamp}, translate(i, 0, 0));
+      model[stamp] = i;
+      if (i % 500 == 499) {
+        const std::int64_t cutoff = any(random) / 4;
+        if (model.rbegin()->first >= cutoff) {
+          cache.dropBefore(TimePoint{cutoff});
+          model.erase(model.begin(), model.lower_bound(cutoff));
+        }
+      }
+    }
+    ASSERT_EQ(cache.size(), model.size());
+    ASSERT_EQ(cache.first().ns, model.begin()->first);
+    ASSERT_EQ(cache.last().ns, model.rbegin()->first);
+    for (std::int64_t stamp = -2100; stamp <= 2100; ++stamp) {
+      const auto after = model.upper_bound(stamp);
+      const RigidTransform* pose = cache.at(TimePoint{stamp});
+      ASSERT_EQ(pose == nullptr, after == model.begin());
+      if (pose != nullptr) {
+        ASSERT_EQ(static_cast<int>(pose->translation.x), static_cast<int>(std::prev(after)->second));
+      }
+    }
+  }
+}
+
+TEST(EdgeCache, HoldsASampleIn72BytesOrLessInAnyOrderOfArrival) {
+  constexpr std::size_t kCount = 100'000;
+  std::vector<std::int64_t> stamps(kCount);
+  std::iota(stamps.begin(), stamps.end(), 0);
+  const auto bytesPerSample = [&] {
+    EdgeCache cache;
+    for (const std::int64_t stamp : stamps) {
+      cache.insert(TimePoint{stamp}, {});
+    }
+    return static_cast<double>(cache.bytes()) / static_cast<double>(kCount);
+  };
+  EXPECT_LE(bytesPerSample(), 72.0);
+  std::shuffle(stamps.begin(), stamps.end(), std::mt19937_64(3));
+  EXPECT_LE(bytesPerSample(), 72.0);
+}
+
+}  // namespace
+}  // namespace stillframe::tf

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace stillframe::tf {
+
+/// Where `stamp` would lie in ascending `stamps` if they were evenly spaced between `first` and `last`; in [0, count).
+/// Needs first <= stamp < last.
+[[nodiscard]] inline std::size_t interpolatedIndex(std::int64_t first, std::int64_t last, std::size_t count,
+                                                   std::int64_t stamp) noexcept {
+  // Differences of int64 need uint64; halved, they fit a signed integer, which converts to double in one instruction.
+  const auto before =
+      static_cast<std::int64_t>((static_cast<std::uint64_t>(stamp) - static_cast<std::uint64_t>(first)) >> 1);
+  const auto whole =
+      static_cast<std::int64_t>((static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first)) >> 1);
+  const double fraction = static_cast<double>(before) / (static_cast<double>(whole) + 1.0);
+  const auto index = static_cast<std::size_t>(static_cast<std::int64_t>(fraction * static_cast<double>(count)));
+  return index < count ? index : count - 1;
+}
+
+/// Number of `stamps` (strictly ascending) at or before `stamp`.
+///
+/// Starts where evenly spaced stamps would have it and gallops from there: a few probes for a steady rate, whatever the
+/// length; O(log n) for any spacing.
+[[nodiscard]] inline std::size_t countAtOrBefore(std::span<const std::int64_t> stamps, std::int64_t stamp) noexcept {
+  const std::size_t count = stamps.size();
+  if (count == 0 || stamp < stamps.front()) {
+    return 0;
+  }
+  if (stamp >= stamps.back()) {
+    return count;
+  }
+  // Invariant from here: stamps[low] <= stamp < stamps[high].
+  std::size_t low = 0;
+  std::size_t high = count - 1;
+  const std::size_t guess = interpolatedIndex(stamps.front(), stamps.back(), count - 1, stamp);
+  if (stamps[guess] <= stamp) {
+    low = guess;
+    for (std::size_t step = 1; low + step < high; step *= 2) {
+      if (stamps[low + step] > stamp) {
+        high = low + step;
+        break;
+      }
+      low += step;
+    }
+  } else {
+    high = guess;
+    for (std::size_t step = 1; step < high; step *= 2) {
+      if (stamps[high - step] <= stamp) {
+        low = high - step;
+        break;
+      }
+      high -= step;
+    }
+  }
+  while (high - low > 1) {
+    const std::size_t middle = low + (high - low) / 2;
+    (stamps[middle] <= stamp ? low : high) = middle;
+  }
+  return low + 1;
+}
+
+}  // namespace stillframe::tf

@@ -38,6 +38,12 @@ struct PackedField {
   std::uint32_t count = 1;  ///< values in a row; 0 is read as 1, as PCL does
 };
 
+/// How a 4-byte integer colour field (`rgba`, `rgb`) is packed. One of type FLOAT32 is always PCL's.
+enum class ColorPacking : std::uint8_t {
+  RgbaBytes,  ///< bytes R, G, B, A in increasing address order, whatever the endianness: Foxglove and canonical
+  PclWord,    ///< the word 0xAARRGGBB in the cloud's endianness: sensor_msgs/PointCloud2 as PCL writes it
+};
+
 /// sensor_msgs/PointCloud2, foxglove.PointCloud, and what compressed clouds decode to.
 ///
 /// Nothing has been checked: sizes may lie, fields may overlap. Point i lies at
@@ -53,6 +59,7 @@ struct PointCloud {
   std::uint32_t row_step = 0;    ///< bytes
   bool is_bigendian = false;
   bool is_dense = true;  ///< false: NaN points may be present. Not trusted.
+  ColorPacking color_packing = ColorPacking::RgbaBytes;
   std::vector<PackedField> fields;
   Payload data;
   [[nodiscard]] std::size_t byteSize() const { return sizeof(*this) + data.bytes.size(); }

@@ -1,0 +1,130 @@
+#include "nodes/points/channel.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "nodes/points/point_colors.h"
+#include "nodes/points/read_value.h"
+
+namespace stillframe::nodes {
+namespace {
+
+using scenegraph::PackedField;
+using scenegraph::PointCloud;
+
+/// Beyond this not every integer has its own float.
+constexpr double kExactIntegers = 16'777'216.0;
+
+float toArray(double value) noexcept {
+  constexpr double kReach = kValueReach;
+  return std::isnan(value) ? kMissingValue : static_cast<float>(std::clamp(value, -kReach, kReach));
+}
+
+template <typename T, bool kSwapped>
+ChannelValues readChannel(const std::byte* data, const ConvertedCloud& converted, std::size_t field_offset,
+                          std::span<float> values) {
+  // Narrow integers and floats are exact in float, so their limits can be found there.
+  using Limit =
+      std::conditional_t<std::is_same_v<T, double> || (std::is_integral_v<T> && sizeof(T) == 4), double, float>;
+  Limit low = std::numeric_limits<Limit>::infinity();
+  Limit high = -low;
+  std::size_t finite = 0;
+  float* out = values.data();
+  for (const PointRun& run : converted.runs) {
+    const std::byte* at = data + run.offset + field_offset;
+    for (std::size_t i = 0; i < run.count; ++i, at += converted.point_step) {
+      const auto value = static_cast<Limit>(readValue<T, kSwapped>(at));
+      if constexpr (std::is_floating_point_v<T>) {
+        const bool is_finite = std::abs(value) <= std::numeric_limits<Limit>::max();
+        if (!is_finite) {
+          *out++ = toArray(static_cast<double>(value));
+          continue;
+        }
+        *out++ = toArray(static_cast<double>(value));
+      } else {
+        *out++ = static_cast<float>(value);
+      }
+      low = std::min(low, value);
+      high = std::max(high, value);
+      ++finite;
+    }
+  }
+  if (finite == 0) {
+    return {};
+  }
+  return {.offset = 0.0, .low = static_cast<double>(low), .high = static_cast<double>(high), .finite = finite};
+}
+
+template <typename T, bool kSwapped>
+void rewriteRelative(const std::byte* data, const ConvertedCloud& converted, std::size_t field_offset, double offset,
+                     std::span<float> values) {
+  float* out = values.data();
+  for (const PointRun& run : converted.runs) {
+    const std::byte* at = data + run.offset + field_offset;
+    for (std::size_t i = 0; i < run.count; ++i, at += converted.point_step) {
+      *out++ = toArray(static_cast<double>(readValue<T, kSwapped>(at)) - offset);
+    }
+  }
+}
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+}  // namespace
+
+bool isTimeField(std::string_view name) {
+  static constexpr std::array<std::string_view, 19> kNames = {
+      "t",        "ts",          "time",       "times",        "timestamp",     "timestamps",   "time_stamp",
+      "stamp",    "t_ns",        "time_ns",    "timestamp_ns", "time_us",       "timestamp_us", "time_offset",
+      "t_offset", "offset_time", "timeoffset", "offsettime",   "time_offset_ns"};
+  return std::ranges::find(kNames, lowerCase(name)) != kNames.end();
+}
+
+std::vector<ChannelInfo> listChannels(const PointCloud& cloud) {
+  const std::optional<ColorSource> colors = findColors(cloud);
+  std::vector<ChannelInfo> channels;
+  const auto add = [&](ChannelInfo channel) {
+    const bool is_new = std::ranges::none_of(channels, [&](const ChannelInfo& c) { return c.name == channel.name; });
+    if (is_new) {
+      channels.push_back(std::move(channel));
+    }
+  };
+  for (const PackedField& field : cloud.fields) {
+    const bool is_position = field.name == "x" || field.name == "y" || field.name == "z";
+    const std::uint32_t bytes = scenegraph::byteSize(field.type);
+    if (is_position || bytes == 0 || isTimeField(field.name) || (colors && isColorField(*colors, field.name))) {
+      continue;
+    }
+    if (field.count <= 1) {
+      add({field.name, field.offset, field.type});
+      continue;
+    }
+    for (std::uint32_t i = 0; i < std::min(field.count, kMaxChannelValues); ++i) {
+      add({field.name + "[" + std::to_string(i) + "]", field.offset + i * bytes, field.type});
+    }
+  }
+  return channels;
+}
+
+ChannelValues convertChannel(const PointCloud& cloud, const ConvertedCloud& converted, const ChannelInfo& channel,
+                             std::span<float> values) {
+  ChannelValues result;
+  const std::byte* const data = cloud.data.bytes.data();
+  withFieldType(channel.type, cloud.is_bigendian, [&]<typename T, bool kSwapped>() {
+    result = readChannel<T, kSwapped>(data, converted, channel.offset, values);
+    if (std::max(std::abs(result.low), std::abs(result.high)) > kExactIntegers) {
+      result.offset = std::rint(result.low / 2 + result.high / 2);
+      rewriteRelative<T, kSwapped>(data, converted, channel.offset, result.offset, values);
+    }
+  });
+  return result;
+}
+
+}  // namespace stillframe::nodes

@@ -1,0 +1,233 @@
+#include "nodes/points/convert_cloud.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "nodes/points/read_value.h"
+
+namespace stillframe::nodes {
+namespace {
+
+using scenegraph::FieldType;
+using scenegraph::PackedField;
+using scenegraph::PointCloud;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What grows while points are read.
+struct Progress {
+  ConvertedCloud& cloud;
+  const std::byte* data;
+  const std::byte* data_end;
+  float* out;
+  const float* out_end;
+  glm::dvec3 low{kInfinity};
+  glm::dvec3 high{-kInfinity};
+  bool run_open = false;
+
+  void keep(const std::byte* point, std::size_t count) {
+    if (!run_open) {
+      cloud.runs.push_back({static_cast<std::size_t>(point - data), 0});
+      run_open = true;
+    }
+    cloud.runs.back().count += count;
+    cloud.points += count;
+  }
+  void drop(bool is_finite) {
+    run_open = false;
+    ++(is_finite ? cloud.out_of_reach : cloud.not_finite);
+  }
+  void point(const std::byte* at, const glm::dvec3& p) {
+    constexpr double kReach = ConvertedCloud::kReach;
+    if (!(std::abs(p.x) <= kReach && std::abs(p.y) <= kReach && std::abs(p.z) <= kReach)) {
+      drop(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+      return;
+    }
+    keep(at, 1);
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+      *out++ = static_cast<float>(p[axis]);
+    }
+  }
+};
+
+/// Coordinates of any type each, one indirect call per value.
+struct MixedReader {
+  std::array<ValueReader, 3> read;
+  std::array<std::size_t, 3> offset;
+
+  glm::dvec3 operator()(const std::byte* at) const noexcept {
+    return {read[0](at + offset[0]), read[1](at + offset[1]), read[2](at + offset[2])};
+  }
+};
+
+/// Coordinates of one type, inlined.
+template <typename T, bool kSwapped>
+struct UniformReader {
+  std::array<std::size_t, 3> offset;
+
+  glm::dvec3 operator()(const std::byte* at) const noexcept {
+    return {static_cast<double>(readValue<T, kSwapped>(at + offset[0])),
+            static_cast<double>(readValue<T, kSwapped>(at + offset[1])),
+            static_cast<double>(readValue<T, kSwapped>(at + offset[2]))};
+  }
+};
+
+template <typename Reader>
+void convertRow(const std::byte* row, std::size_t count, std::size_t step, const Reader& read, Progress& progress) {
+  for (std::size_t i = 0; i < count; ++i, row += step) {
+    progress.point(row, read(row));
+  }
+}
+
+// Four lanes: x, y, z and whatever follows; the fourth is never looked at. GCC and Clang on any CPU.
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = std::int32_t __attribute__((vector_size(16)));
+
+Float4 load4(const std::byte* at) noexcept {
+  Float4 v;
+  std::memcpy(&v, at, sizeof(v));
+  return v;
+}
+
+/// Native FLOAT32 x, y, z in a row at `offset`: blocks of four points, each checked as a whole, else one by one.
+void convertRowFloat3(const std::byte* row, std::size_t count, std::size_t step, std::size_t offset,
+                      Progress& progress) {
+  constexpr std::size_t kBlock = 4;
+  const UniformReader<float, false> read{{offset, offset + 4, offset + 8}};
+  const Int4 sign_off = {0x7fffffff, 0x7fffffff, 0x7fffffff, 0};  // the fourth lane becomes 0: always within reach
+  const float reach = ConvertedCloud::kReach;
+  const Float4 reach4 = {reach, reach, reach, reach};
+  const float inf = std::numeric_limits<float>::infinity();
+  Float4 low = {inf, inf, inf, inf};
+  Float4 high = -low;
+  std::size_t i = 0;
+  while (i < count) {
+    const std::byte* const at = row + i * step;
+    const bool has_block = count - i >= kBlock &&
+                           static_cast<std::size_t>(progress.data_end - at) >= 3 * step + offset + sizeof(Float4) &&
+                           progress.out_end - progress.out >= 3 * static_cast<std::ptrdiff_t>(kBlock) + 1;
+    if (!has_block) {
+      progress.point(at, read(at));
+      ++i;
+      continue;
+    }
+    const Float4 p0 = load4(at + offset);
+    const Float4 p1 = load4(at + step + offset);
+    const Float4 p2 = load4(at + 2 * step + offset);
+    const Float4 p3 = load4(at + 3 * step + offset);
+    const auto within = [&](Float4 p) { return std::bit_cast<Float4>(std::bit_cast<Int4>(p) & sign_off) <= reach4; };
+    const Int4 all_within = within(p0) & within(p1) & within(p2) & within(p3);
+    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(all_within);
+    if ((halves[0] & halves[1]) != ~std::uint64_t{0}) {
+      for (std::size_t k = 0; k < kBlock; ++k) {
+        progress.point(at + k * step, read(at + k * step));
+      }
+      i += kBlock;
+      continue;
+    }
+    const auto grow = [&](Float4 p) {
+      low = p < low ? p : low;
+      high = p > high ? p : high;
+    };
+    grow(p0);
+    grow(p1);
+    grow(p2);
+    grow(p3);
+    // Each store's fourth lane is overwritten by the next one; has_block leaves room for the last.
+    std::memcpy(progress.out, &p0, sizeof(p0));
+    std::memcpy(progress.out + 3, &p1, sizeof(p1));
+    std::memcpy(progress.out + 6, &p2, sizeof(p2));
+    std::memcpy(progress.out + 9, &p3, sizeof(p3));
+    progress.out += 3 * kBlock;
+    progress.keep(at, kBlock);
+    i += kBlock;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    progress.low[axis] = std::min(progress.low[axis], static_cast<double>(low[axis]));
+    progress.high[axis] = std::max(progress.high[axis], static_cast<double>(high[axis]));
+  }
+}
+
+template <typename Row>
+void forEachRow(const CloudLayout& layout, Progress& progress, const Row& convert) {
+  for (std::size_t row = 0; row < layout.rows; ++row) {
+    // A run may cross a row border only when there is no padding, and then there is just one row.
+    progress.run_open = false;
+    convert(progress.data + row * layout.row_step);
+  }
+}
+
+/// Second pass: the kept points again, in double, relative to the origin.
+void writeRelative(const MixedReader& read, const ConvertedCloud& cloud, const std::byte* data, float* out) {
+  for (const PointRun& run : cloud.runs) {
+    const std::byte* at = data + run.offset;
+    for (std::size_t i = 0; i < run.count; ++i, at += cloud.point_step) {
+      const glm::dvec3 p = read(at) - cloud.origin;
+      *out++ = static_cast<float>(p.x);
+      *out++ = static_cast<float>(p.y);
+      *out++ = static_cast<float>(p.z);
+    }
+  }
+}
+
+}  // namespace
+
+std::expected<ConvertedCloud, CloudError> convertCloud(const PointCloud& cloud, const FloatSink& positions) {
+  const auto checked = checkLayout(cloud);
+  if (!checked) {
+    return std::unexpected(checked.error());
+  }
+  const CloudLayout& layout = *checked;
+  ConvertedCloud converted;
+  converted.point_step = layout.point_step;
+  if (layout.points() == 0) {
+    return converted;
+  }
+  const auto& [x, y, z] = layout.xyz;
+  const std::array<std::size_t, 3> offsets{x->offset, y->offset, z->offset};
+  const std::byte* const data = cloud.data.bytes.data();
+  float* const out = positions(3 * layout.points());
+  Progress progress{converted, data, data + cloud.data.bytes.size(), out, out + 3 * layout.points()};
+  const MixedReader mixed{{valueReader(x->type, cloud.is_bigendian), valueReader(y->type, cloud.is_bigendian),
+                           valueReader(z->type, cloud.is_bigendian)},
+                          offsets};
+  const std::size_t step = layout.point_step;
+  const std::size_t count = layout.points_per_row;
+  const bool is_uniform = x->type == y->type && y->type == z->type;
+  const bool is_native = cloud.is_bigendian == (std::endian::native == std::endian::big);
+  if (is_uniform && x->type == FieldType::Float32 && is_native && offsets[1] == offsets[0] + 4 &&
+      offsets[2] == offsets[0] + 8) {
+    forEachRow(layout, progress,
+               [&](const std::byte* row) { convertRowFloat3(row, count, step, offsets[0], progress); });
+  } else if (is_uniform) {
+    withFieldType(x->type, cloud.is_bigendian, [&]<typename T, bool kSwapped>() {
+      const UniformReader<T, kSwapped> read{offsets};
+      forEachRow(layout, progress, [&](const std::byte* row) { convertRow(row, count, step, read, progress); });
+    });
+  } else {
+    forEachRow(layout, progress, [&](const std::byte* row) { convertRow(row, count, step, mixed, progress); });
+  }
+  if (converted.points == 0) {
+    return converted;
+  }
+  converted.box_min = progress.low;
+  converted.box_max = progress.high;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = progress.low[axis];
+    const double high = progress.high[axis];
+    if (std::max(std::abs(low), std::abs(high)) > ConvertedCloud::kNearby) {
+      converted.origin[axis] = std::rint(low / 2 + high / 2);
+    }
+  }
+  if (converted.origin != glm::dvec3(0.0)) {
+    writeRelative(mixed, converted, data, out);
+  }
+  return converted;
+}
+
+}  // namespace stillframe::nodes

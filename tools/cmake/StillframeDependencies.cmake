@@ -7,6 +7,7 @@ find_package(CLI11 REQUIRED)
 find_package(fastcdr REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(LZ4 REQUIRED IMPORTED_TARGET liblz4)
+find_package(ZLIB REQUIRED)
 
 if(STILLFRAME_GL)
   find_package(OpenSceneGraph 3.6.5 REQUIRED COMPONENTS osg osgDB osgGA osgText osgUtil osgViewer)

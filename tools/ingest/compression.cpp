@@ -1,0 +1,215 @@
+#include "tools/ingest/compression.h"
+
+#include <lz4frame.h>
+#include <zlib.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "tools/ingest/sentence.h"
+
+namespace stillframe::ingest {
+
+namespace {
+
+constexpr std::uint64_t kAlwaysPlausible = std::uint64_t{64} << 20;
+constexpr std::uint64_t kMaxChunkBytes = (std::uint64_t{1} << 31) - 1;  // a locator holds 31 bits of offset
+constexpr std::uint64_t kPlausibleRatio = 64;
+
+/// One step of a streaming decompressor.
+struct Step {
+  std::size_t consumed = 0;
+  std::size_t produced = 0;
+  bool is_finished = false;
+  const char* error = nullptr;
+};
+
+struct ZstdStream {
+  std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context{ZSTD_createDCtx(), &ZSTD_freeDCtx};
+
+  Step step(std::span<const std::byte> in, std::span<std::byte> out) {
+    ZSTD_inBuffer input{in.data(), in.size(), 0};
+    ZSTD_outBuffer output{out.data(), out.size(), 0};
+    const std::size_t result = ZSTD_decompressStream(context.get(), &output, &input);
+    if (ZSTD_isError(result) != 0u) {
+      return {input.pos, output.pos, false, ZSTD_getErrorName(result)};
+    }
+    return {input.pos, output.pos, result == 0, nullptr};
+  }
+};
+
+struct Lz4Stream {
+  struct Free {
+    void operator()(LZ4F_dctx* context) const { LZ4F_freeDecompressionContext(context); }
+  };
+  std::unique_ptr<LZ4F_dctx, Free> context;
+
+  Lz4Stream() {
+    LZ4F_dctx* raw = nullptr;
+    if (LZ4F_isError(LZ4F_createDecompressionContext(&raw, LZ4F_VERSION)) == 0u) {
+      context.reset(raw);
+    }
+  }
+  Step step(std::span<const std::byte> in, std::span<std::byte> out) {
+    std::size_t consumed = in.size();
+    std::size_t produced = out.size();
+    const std::size_t result = LZ4F_decompress(context.get(), out.data(), &produced, in.data(), &consumed, nullptr);
+    if (LZ4F_isError(result) != 0u) {
+      return {0, 0, false, LZ4F_getErrorName(result)};
+    }
+    return {consumed, produced, result == 0, nullptr};
+  }
+};
+
+Buffer grown(Buffer old, std::size_t used, std::size_t size) {
+  Buffer buffer{std::make_unique_for_overwrite<std::byte[]>(size), size};
+  if (used > 0) {
+    std::memcpy(buffer.data.get(), old.data.get(), used);
+  }
+  return buffer;
+}
+
+template <typename Stream>
+std::expected<Buffer, std::string> unpack(std::span<const std::byte> packed, std::size_t claimed,
+                                          Completeness completeness) {
+  Stream stream;
+  if (stream.context == nullptr) {
+    return std::unexpected("no memory for a decompressor");
+  }
+  // One byte more than claimed, so that a stream that holds more shows itself.
+  const std::size_t limit = claimed + 1;
+  const bool is_plausible = claimed <= packed.size() * kPlausibleRatio;
+  std::size_t capacity = is_plausible ? limit : std::min<std::size_t>(limit, packed.size() * kPlausibleRatio + 4096);
+  Buffer out = grown({}, 0, capacity);
+  std::size_t used = 0;
+  std::size_t position = 0;
+  bool is_finished = false;
+  const char* error = nullptr;
+  while (error == nullptr) {
+    if (used == capacity && capacity < limit) {
+      capacity = std::min(limit, capacity * 2);
+      out = grown(std::move(out), used, capacity);
+    }
+    const Step step = stream.step(packed.subspan(position), {out.data.get() + used, capacity - used});
+    position += step.consumed;
+    used += step.produced;
+    is_finished = step.is_finished;
+    error = step.error;
+    if (used == limit || (is_finished && position == packed.size()) || (step.consumed == 0 && step.produced == 0)) {
+      break;
+    }
+  }
+  if (used > claimed) {
+    return std::unexpected(sentence("it holds more than the ", claimed, " bytes it claims"));
+  }
+  if (completeness == Completeness::Whole) {
+    if (error != nullptr) {
+      return std::unexpected(sentence("its data cannot be unpacked: ", error));
+    }
+    if (used != claimed || !is_finished) {
+      return std::unexpected(sentence("it claims ", claimed, " bytes but unpacks to ", used));
+    }
+  }
+  out.size = used;
+  return out;
+}
+
+}  // namespace
+
+std::optional<Compression> compressionFromName(std::string_view name) noexcept {
+  if (name.empty()) {
+    return Compression::None;
+  }
+  if (name == "lz4") {
+    return Compression::Lz4;
+  }
+  if (name == "zstd") {
+    return Compression::Zstd;
+  }
+  return std::nullopt;
+}
+
+std::string_view toString(Compression compression) noexcept {
+  switch (compression) {
+    case Compression::None:
+      return "";
+    case Compression::Lz4:
+      return "lz4";
+    case Compression::Zstd:
+      return "zstd";
+  }
+  return "";
+}
+
+std::uint64_t maxUnpackedBytes(Compression compression, std::uint64_t packed_bytes) noexcept {
+  const std::uint64_t packed = std::min(packed_bytes, kMaxChunkBytes);
+  switch (compression) {
+    case Compression::None:
+      return packed;
+    case Compression::Lz4:
+      return std::min(kMaxChunkBytes, packed * 255);
+    case Compression::Zstd:
+      return std::min(kMaxChunkBytes, std::max(kAlwaysPlausible, packed * 1024));
+  }
+  return 0;
+}
+
+std::expected<Buffer, std::string> decompress(Compression compression, std::span<const std::byte> packed,
+                                              std::uint64_t claimed_bytes, Completeness completeness) {
+  const std::uint64_t limit = maxUnpackedBytes(compression, packed.size());
+  const bool is_prefix = completeness == Completeness::Prefix;
+  if (claimed_bytes > limit && !(is_prefix && claimed_bytes <= kMaxChunkBytes)) {
+    return std::unexpected(sentence("it claims ", claimed_bytes, " bytes, which ", packed.size(), " bytes of ",
+                                    compression == Compression::None ? "uncompressed" : toString(compression),
+                                    " data cannot hold"));
+  }
+  const auto claimed = static_cast<std::size_t>(is_prefix ? std::min(claimed_bytes, limit) : claimed_bytes);
+  switch (compression) {
+    case Compression::Lz4:
+      return unpack<Lz4Stream>(packed, claimed, completeness);
+    case Compression::Zstd:
+      return unpack<ZstdStream>(packed, claimed, completeness);
+    case Compression::None:
+      break;
+  }
+  if (!is_prefix && packed.size() != claimed) {
+    return std::unexpected(sentence("it claims ", claimed, " bytes but holds ", packed.size()));
+  }
+  Buffer out{std::make_unique_for_overwrite<std::byte[]>(claimed), claimed};
+  std::copy_n(packed.begin(), claimed, out.data.get());
+  return out;
+}
+
+std::expected<std::vector<std::byte>, std::string> compress(Compression compression, std::span<const std::byte> bytes) {
+  std::vector<std::byte> out;
+  std::size_t written = bytes.size();
+  switch (compression) {
+    case Compression::None:
+      out.assign(bytes.begin(), bytes.end());
+      return out;
+    case Compression::Lz4:
+      out.resize(LZ4F_compressFrameBound(bytes.size(), nullptr));
+      written = LZ4F_compressFrame(out.data(), out.size(), bytes.data(), bytes.size(), nullptr);
+      if (LZ4F_isError(written) != 0u) {
+        return std::unexpected(std::string(LZ4F_getErrorName(written)));
+      }
+      break;
+    case Compression::Zstd:
+      out.resize(ZSTD_compressBound(bytes.size()));
+      written = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 1);
+      if (ZSTD_isError(written) != 0u) {
+        return std::unexpected(std::string(ZSTD_getErrorName(written)));
+      }
+      break;
+  }
+  out.resize(written);
+  return out;
+}
+
+std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t crc) noexcept {
+  return static_cast<std::uint32_t>(
+      ::crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<z_size_t>(bytes.size())));
+}
+
+}  // namespace stillframe::ingest

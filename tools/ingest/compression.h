@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stillframe::ingest {
+
+/// How the records of a chunk are packed.
+enum class Compression : std::uint8_t {
+  None,  ///< ""
+  Lz4,   ///< "lz4": the frame format
+  Zstd,  ///< "zstd"
+};
+
+/// The compression an MCAP names; nullopt for one that is not known here.
+[[nodiscard]] std::optional<Compression> compressionFromName(std::string_view name) noexcept;
+[[nodiscard]] std::string_view toString(Compression compression) noexcept;
+
+/// Bytes without the cost of clearing them first.
+struct Buffer {
+  std::unique_ptr<std::byte[]> data;
+  std::size_t size = 0;
+  [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return {data.get(), size}; }
+};
+
+/// Largest size a chunk of `packed_bytes` may claim: what the method can produce at best (255-fold for lz4), at most
+/// 1024-fold but always 64 MiB for zstd, and never 2 GiB or more.
+[[nodiscard]] std::uint64_t maxUnpackedBytes(Compression compression, std::uint64_t packed_bytes) noexcept;
+
+/// Whether bytes may be missing at the end of what is unpacked.
+enum class Completeness : std::uint8_t {
+  Whole,   ///< anything but exactly the claimed size is an error
+  Prefix,  ///< as much as can be unpacked of a chunk that was cut off
+};
+
+/// Unpacks a chunk that claims to hold `claimed_bytes`. Any thread.
+///
+/// A claim beyond maxUnpackedBytes() is refused at once; beneath it memory grows with what is really produced when the
+/// claim is more than 64 times what is packed. The error is half a sentence with the byte counts.
+[[nodiscard]] std::expected<Buffer, std::string> decompress(Compression compression, std::span<const std::byte> packed,
+                                                            std::uint64_t claimed_bytes,
+                                                            Completeness completeness = Completeness::Whole);
+
+[[nodiscard]] std::expected<std::vector<std::byte>, std::string> compress(Compression compression,
+                                                                          std::span<const std::byte> bytes);
+
+/// CRC-32 as MCAP uses it (zlib's), continued from `crc`.
+[[nodiscard]] std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t crc = 0) noexcept;
+
+}  // namespace stillframe::ingest

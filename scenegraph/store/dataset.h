@@ -24,9 +24,11 @@ enum class TfClock : std::uint8_t {
 
 /// One opened recording or live stream: its objects, its transforms, its problems. Shared by all views. Any thread.
 ///
+/// Owned by a shared_ptr: background work keeps it alive to its end.
+///
 /// The reader appends entries to `store()`; `takeTransforms()` moves what is new on the FrameTransforms topics into
 /// `transforms()`, with a cursor per topic, so that nothing is taken twice.
-class Dataset {
+class Dataset : public std::enable_shared_from_this<Dataset> {
  public:
   explicit Dataset(std::string name);
   ~Dataset();

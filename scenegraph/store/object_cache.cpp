@@ -10,7 +10,7 @@ CacheKey cacheKey(TopicId topic, const Entry& entry, std::string product) {
 
 ObjectCache::ObjectCache(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
-std::size_t ObjectCache::Hash::operator()(const CacheKey& key) const noexcept {
+std::size_t CacheKeyHash::operator()(const CacheKey& key) const noexcept {
   std::size_t hash = std::hash<std::string>{}(key.product);
   for (const std::uint64_t part :
        {std::uint64_t{key.topic}, static_cast<std::uint64_t>(key.log_time_ns), key.payload_bytes, key.sequence}) {

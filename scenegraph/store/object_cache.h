@@ -23,6 +23,10 @@ struct CacheKey {
   friend bool operator==(const CacheKey&, const CacheKey&) = default;
 };
 
+struct CacheKeyHash {
+  std::size_t operator()(const CacheKey& key) const noexcept;
+};
+
 [[nodiscard]] CacheKey cacheKey(TopicId topic, const Entry& entry, std::string product = "object");
 
 /// Least-recently-used products within a bound in bytes, shared by all views of a dataset. Any thread.
@@ -50,15 +54,12 @@ class ObjectCache {
     std::shared_ptr<const void> product;
     std::size_t bytes = 0;
   };
-  struct Hash {
-    std::size_t operator()(const CacheKey& key) const noexcept;
-  };
   std::shared_ptr<const void> find(const CacheKey& key);
   void evict(std::list<Item>& dropped);  // moves what is over the bound to `dropped`
 
   mutable std::mutex mutex_;  // guards everything below
   std::list<Item> items_;     // front = most recently used
-  std::unordered_map<CacheKey, std::list<Item>::iterator, Hash> index_;
+  std::unordered_map<CacheKey, std::list<Item>::iterator, CacheKeyHash> index_;
   std::size_t bytes_ = 0;
   std::size_t max_bytes_;
   std::uint64_t hits_ = 0;

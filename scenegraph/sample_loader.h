@@ -1,0 +1,231 @@
+#pragma once
+
+#include <expected>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "scenegraph/latest_job.h"
+#include "scenegraph/layer.h"
+#include "scenegraph/status.h"
+#include "scenegraph/store/dataset.h"
+#include "scenegraph/store/tf_clock.h"
+
+namespace stillframe::scenegraph {
+
+/// Brings the sample of a topic that is in force at a tick to the form a layer draws, off the GUI thread.
+///
+/// The one decoding pattern of all layers (REQUIREMENTS C3): product in the cache? else decode, convert and cache it on
+/// the executor, latest wins; a tick that resolves to the sample already shown does nothing; a failed sample clears the
+/// view and is never tried again. While a sample is under way the one before stays, and status() says so.
+///
+/// ```cpp
+/// loader_.emplace(context, ObjectType::PointCloud, topic_, "points", [](const AnyObject& object, const Entry&) {
+///   return convertCloud(*object.get<PointCloud>());  // std::expected<CloudPoints, Status>; never null here
+/// });
+/// if (loader_->update(tick.time)) { rebuildFrom(loader_->product()); }  // nullptr: draw nothing, status() says why
+/// ```
+/// Product has `std::size_t byteSize() const`. GUI thread only; the dataset must be owned by a shared_ptr. `convert`
+/// runs on a worker and may outlive the loader: it captures values only.
+template <typename Product>
+class SampleLoader {
+ public:
+  using Convert = std::function<std::expected<Product, Status>(const AnyObject&, const Entry&)>;
+  using IsReference = std::function<bool(const Product&)>;
+
+  /// `tag` names the product in the cache, with every setting that changes its bytes ("points"). `is_reference`: which
+  /// samples reference() accepts, for instance those that are not empty.
+  SampleLoader(
+      const LayerContext& context, ObjectType type, std::string topic, std::string tag, Convert convert,
+      IsReference is_reference = [](const Product&) { return true; })
+      : topic_name_(std::move(topic)),
+        shared_(std::make_shared<const Shared>(
+            Shared{context.dataset.shared_from_this(), type, topic_name_, std::move(tag), std::move(convert)})),
+        is_reference_(std::move(is_reference)),
+        sample_job_(context.executor, context.request_update),
+        reference_job_(context.executor, context.request_update) {}
+
+  /// Moves to the newest sample at or before `time`. Returns whether product(), entry() or status() changed.
+  bool update(tf::TimePoint time) {
+    const auto entry = entryAt(time);
+    if (!entry) {
+      sample_job_.cancel();
+      return show(std::nullopt, nullptr, noMessage(time));
+    }
+    const CacheKey key = cacheKey(*topic_, *entry, shared_->tag);
+    if (shown_key_ == key) {
+      sample_job_.cancel();
+      return show(entry, product_, shown_status_);
+    }
+    auto product = shared_->dataset->cache().template get<Product>(key);
+    if (product == nullptr) {
+      sample_job_.request(key,
+                          [shared = shared_, topic = *topic_, entry = *entry] { return shared->load(topic, entry); });
+      auto outcome = sample_job_.take();
+      if (!outcome) {
+        return show(entry_, product_, decoding(*entry));
+      }
+      if (!outcome->result) {
+        shown_key_ = key;
+        shown_status_ = outcome->result.error();
+        return show(entry, nullptr, shown_status_);
+      }
+      product = *outcome->result;
+    } else {
+      sample_job_.cancel();
+    }
+    shown_key_ = key;
+    shown_status_ = {};
+    return show(entry, std::move(product), {});
+  }
+
+  /// What to draw; nullptr when there is nothing.
+  [[nodiscard]] const std::shared_ptr<const Product>& product() const noexcept { return product_; }
+  /// The sample that product() or a failed status() is about.
+  [[nodiscard]] const std::optional<Entry>& entry() const noexcept { return entry_; }
+  /// Ok; NoTopic, NoMessage; Decoding (the sample before is still shown); or why the sample could not be decoded.
+  [[nodiscard]] const Status& status() const noexcept { return status_; }
+  [[nodiscard]] bool isPending() const { return sample_job_.isPending() || reference_job_.isPending(); }
+
+  /// The first sample of the topic, by time, that can be decoded and that `is_reference` accepts: what colour ranges
+  /// held across scrubbing come from, whichever sample was visited first. nullptr while it is under way or when there
+  /// is none; asked for on the first call and again when the topic has grown at its front.
+  [[nodiscard]] std::shared_ptr<const Product> reference() {
+    if (!findTopic()) {
+      return nullptr;
+    }
+    const std::size_t count = shared_->dataset->store().entryCount(*topic_);
+    if (scan_ && scan_->looked > 0) {
+      const auto last = shared_->dataset->store().at(*topic_, scan_->looked - 1);
+      if (!last || last->sequence != scan_->last_sequence) {
+        scan_.reset();
+      }
+    }
+    if (count > 0 && (!scan_ || (scan_->product == nullptr && scan_->looked < count))) {
+      const std::size_t first = scan_ ? scan_->looked : 0;
+      const auto last = shared_->dataset->store().at(*topic_, count - 1);
+      CacheKey key{*topic_, static_cast<std::int64_t>(first), count, last->sequence, "reference"};
+      reference_job_.request(key, [shared = shared_, topic = *topic_, first, count, accept = is_reference_] {
+        return shared->scan(topic, first, count, accept);
+      });
+      if (auto outcome = reference_job_.take(); outcome && outcome->result) {
+        scan_ = **outcome->result;
+      }
+    }
+    return scan_ ? scan_->product : nullptr;
+  }
+
+ private:
+  using Loaded = std::expected<std::shared_ptr<const Product>, Status>;
+  /// How far reference() has looked.
+  struct Scan {
+    std::size_t looked = 0;  ///< entries from the front
+    std::uint64_t last_sequence = 0;
+    std::shared_ptr<const Product> product;
+  };
+  /// What the workers read.
+  struct Shared {
+    std::shared_ptr<Dataset> dataset;
+    ObjectType type;
+    std::string topic_name;
+    std::string tag;
+    Convert convert;
+
+    [[nodiscard]] Loaded load(TopicId topic, const Entry& entry) const {
+      const auto fail = [&](StatusLevel level, const std::string& code, const std::string& message) {
+        return std::unexpected(
+            Status{level, code, "'" + topic_name + "' at " + timeText(entry.log_time) + ": " + message});
+      };
+      const auto object = dataset->store().decode(topic, entry);
+      if (!object) {
+        return fail(StatusLevel::Error, object.error().code, object.error().message);
+      }
+      if (object->type() != type) {
+        return fail(StatusLevel::Error, "WrongObject", "the decoder made another object than the topic announces");
+      }
+      auto converted = convert(*object, entry);
+      if (!converted) {
+        return fail(converted.error().level, converted.error().code, converted.error().message);
+      }
+      auto product = std::make_shared<const Product>(std::move(*converted));
+      dataset->cache().put(cacheKey(topic, entry, tag), product, product->byteSize());
+      return product;
+    }
+    [[nodiscard]] std::expected<std::shared_ptr<const Scan>, Status> scan(TopicId topic, std::size_t first,
+                                                                          std::size_t count,
+                                                                          const IsReference& accept) const {
+      auto scan = std::make_shared<Scan>();
+      scan->looked = first;
+      while (scan->looked < count && scan->product == nullptr) {
+        const auto entry = dataset->store().at(topic, scan->looked);
+        if (!entry) {
+          break;
+        }
+        ++scan->looked;
+        scan->last_sequence = entry->sequence;
+        auto product = dataset->cache().template get<Product>(cacheKey(topic, *entry, tag));
+        if (product == nullptr) {
+          product = load(topic, *entry).value_or(nullptr);
+        }
+        scan->product = product != nullptr && accept(*product) ? std::move(product) : nullptr;
+      }
+      return scan;
+    }
+  };
+
+  bool findTopic() {
+    if (!topic_) {
+      topic_ = shared_->dataset->store().findTopic(topic_name_, shared_->type);
+    }
+    return topic_.has_value();
+  }
+  std::optional<Entry> entryAt(tf::TimePoint time) {
+    return findTopic() ? shared_->dataset->store().newestAtOrBefore(*topic_, time) : std::nullopt;
+  }
+  [[nodiscard]] Status noMessage(tf::TimePoint time) const {
+    if (!topic_) {
+      return {StatusLevel::Warn, "NoTopic",
+              "there is no topic '" + topic_name_ + "' of type " + std::string(toString(shared_->type))};
+    }
+    const auto span = shared_->dataset->store().span(*topic_);
+    return {StatusLevel::Warn, "NoMessage",
+            span ? "no message on '" + topic_name_ + "' at or before " + timeText(time) + ": the first is at " +
+                       timeText(span->first)
+                 : "no message on '" + topic_name_ + "'"};
+  }
+  [[nodiscard]] Status decoding(const Entry& entry) const {
+    return {StatusLevel::Warn, "Decoding",
+            "the message of " + timeText(entry.log_time) + " on '" + topic_name_ + "' is being decoded" +
+                (product_ != nullptr ? "; the one of " + timeText(entry_->log_time) + " is shown meanwhile" : "")};
+  }
+  bool show(std::optional<Entry> entry, std::shared_ptr<const Product> product, Status status) {
+    const auto sequence = [](const std::optional<Entry>& of) {
+      return of ? std::optional(of->sequence) : std::nullopt;
+    };
+    const bool has_changed = product != product_ || sequence(entry) != sequence(entry_) || status != status_;
+    if (!entry) {
+      shown_key_.reset();
+    }
+    entry_ = entry;
+    product_ = std::move(product);
+    status_ = std::move(status);
+    return has_changed;
+  }
+
+  std::string topic_name_;
+  std::shared_ptr<const Shared> shared_;
+  IsReference is_reference_;
+  std::optional<TopicId> topic_;
+  std::optional<CacheKey> shown_key_;  // of what product_ or a failure is about
+  Status shown_status_;                // that went with it
+  std::optional<Entry> entry_;
+  std::shared_ptr<const Product> product_;
+  Status status_{StatusLevel::Warn, "NoMessage", ""};
+  std::optional<Scan> scan_;
+  LatestJob<Product> sample_job_;
+  LatestJob<Scan> reference_job_;
+};
+
+}  // namespace stillframe::scenegraph

@@ -1,0 +1,98 @@
+#include "scenegraph/store/object_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+#include <vector>
+
+namespace stillframe::scenegraph {
+namespace {
+
+CacheKey key(std::int64_t time, const std::string& product = "object") {
+  Entry entry;
+  entry.log_time = tf::TimePoint{time};
+  return cacheKey(1, entry, product);
+}
+
+std::shared_ptr<const int> number(int value) { return std::make_shared<const int>(value); }
+
+TEST(ObjectCache, GivesBackWhatWasPut) {
+  ObjectCache cache(100);
+  EXPECT_EQ(cache.get<int>(key(1)), nullptr);
+  cache.put(key(1), number(7), 10);
+  EXPECT_EQ(*cache.get<int>(key(1)), 7);
+  EXPECT_EQ(cache.get<int>(key(1, "points")), nullptr);
+  EXPECT_EQ(cache.hits(), 1U);
+  EXPECT_EQ(cache.misses(), 2U);
+}
+
+TEST(ObjectCache, DropsTheLeastRecentlyUsedFirst) {
+  ObjectCache cache(30);
+  cache.put(key(1), number(1), 10);
+  cache.put(key(2), number(2), 10);
+  cache.put(key(3), number(3), 10);
+  (void)cache.get<int>(key(1));
+  cache.put(key(4), number(4), 10);
+  EXPECT_NE(cache.get<int>(key(1)), nullptr);
+  EXPECT_EQ(cache.get<int>(key(2)), nullptr);
+  EXPECT_EQ(cache.bytes(), 30U);
+}
+
+TEST(ObjectCache, ReplacesUnderTheSameKeyAndCountsItsBytesOnce) {
+  ObjectCache cache(30);
+  cache.put(key(1), number(1), 20);
+  cache.put(key(1), number(2), 5);
+  EXPECT_EQ(*cache.get<int>(key(1)), 2);
+  EXPECT_EQ(cache.bytes(), 5U);
+}
+
+TEST(ObjectCache, KeepsNothingLargerThanItsBound) {
+  ObjectCache cache(30);
+  cache.put(key(1), number(1), 10);
+  cache.put(key(2), number(2), 31);
+  EXPECT_EQ(cache.get<int>(key(2)), nullptr);
+  EXPECT_NE(cache.get<int>(key(1)), nullptr);
+  cache.put(key(1), number(3), static_cast<std::size_t>(-1));
+  EXPECT_EQ(cache.get<int>(key(1)), nullptr) << "the older product of the same key must not stay";
+  EXPECT_EQ(cache.bytes(), 0U);
+}
+
+TEST(ObjectCache, ShrinksAtOnce) {
+  ObjectCache cache(30);
+  cache.put(key(1), number(1), 10);
+  cache.put(key(2), number(2), 10);
+  cache.setMaxBytes(10);
+  EXPECT_EQ(cache.get<int>(key(1)), nullptr);
+  EXPECT_NE(cache.get<int>(key(2)), nullptr);
+  cache.setMaxBytes(0);
+  EXPECT_EQ(cache.bytes(), 0U);
+}
+
+TEST(ObjectCache, AProductInUseOutlivesItsEviction) {
+  ObjectCache cache(10);
+  cache.put(key(1), number(1), 10);
+  const auto in_use = cache.get<int>(key(1));
+  cache.put(key(2), number(2), 10);
+  EXPECT_EQ(*in_use, 1);
+}
+
+TEST(ObjectCache, MayBeUsedFromManyThreads) {
+  ObjectCache cache(100);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([&cache, t] {
+      for (int i = 0; i < 500; ++i) {
+        cache.put(key(i % 20), number(i % 20), 10);
+        const auto found = cache.get<int>(key((i + t) % 20));
+        ASSERT_TRUE(found == nullptr || *found == (i + t) % 20);
+      }
+    });
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  EXPECT_LE(cache.bytes(), 100U);
+}
+
+}  // namespace
+}  // namespace stillframe::scenegraph

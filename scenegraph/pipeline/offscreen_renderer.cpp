@@ -1,0 +1,109 @@
+#include "scenegraph/pipeline/offscreen_renderer.h"
+
+#include <GL/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+namespace stillframe::scenegraph {
+namespace {
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Metres in front of the eye for a depth of [0, 1], whatever the projection.
+class MetresFromDepth {
+ public:
+  explicit MetresFromDepth(const glm::dmat4& clip_from_eye)
+      : zz_(clip_from_eye[2][2]), zw_(clip_from_eye[3][2]), wz_(clip_from_eye[2][3]), ww_(clip_from_eye[3][3]) {}
+  [[nodiscard]] float operator()(float depth) const {
+    if (!(depth > 0.0F)) {
+      return std::numeric_limits<float>::infinity();
+    }
+    // depth = (zz z + zw) / (wz z + ww), solved for -z.
+    const double d = static_cast<double>(depth);
+    return static_cast<float>((d * ww_ - zw_) / (d * wz_ - zz_));
+  }
+
+ private:
+  double zz_, zw_, wz_, ww_;
+};
+
+Picture toPicture(const LinearFrame& frame, const RenderOptions& options, const glm::dmat4& clip_from_eye) {
+  Picture picture{.width = options.width, .height = options.height, .rgba = {}, .depth_m = {}};
+  picture.rgba.resize(frame.rgba.size());
+  picture.depth_m.resize(frame.depth.size());
+  const auto width = static_cast<std::size_t>(options.width);
+  const auto height = static_cast<std::size_t>(options.height);
+  const MetresFromDepth metres{clip_from_eye};
+  for (std::size_t row = 0; row < height; ++row) {
+    const std::size_t from = (height - 1 - row) * width;
+    const std::size_t to = row * width;
+    for (std::size_t column = 0; column < width; ++column) {
+      const float* source = &frame.rgba[(from + column) * 4];
+      float* target = &picture.rgba[(to + column) * 4];
+      std::copy_n(source, 3, target);
+      target[3] = 1.0F;  // blending over an opaque background leaves a meaningless alpha
+      picture.depth_m[to + column] = metres(frame.depth[from + column]);
+    }
+  }
+  return picture;
+}
+
+}  // namespace
+
+std::expected<std::unique_ptr<OffscreenRenderer>, Status> OffscreenRenderer::create() {
+  auto context = OffscreenContext::create();
+  if (!context) {
+    return std::unexpected(context.error());
+  }
+  return std::unique_ptr<OffscreenRenderer>(new OffscreenRenderer(std::move(*context)));
+}
+
+OffscreenRenderer::~OffscreenRenderer() {
+  context_->makeCurrent();
+  pipeline_.reset();
+}
+
+std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const CameraView& view,
+                                                         const RenderOptions& options) {
+  const std::string size = std::to_string(options.width) + "x" + std::to_string(options.height);
+  if (options.width <= 0 || options.height <= 0) {
+    return std::unexpected(
+        Status{StatusLevel::Error, "BadSize", "a picture of " + size + " pixels has no area; give at least 1x1"});
+  }
+  const int largest = context_->info().max_texture_size;
+  if (options.width > largest || options.height > largest ||
+      static_cast<long long>(options.width) * options.height > kMaxPixels) {
+    return std::unexpected(Status{StatusLevel::Error, "TooLarge",
+                                  "a picture of " + size + " pixels is too large: at most " + std::to_string(largest) +
+                                      " on a side and " + std::to_string(kMaxPixels) + " in all"});
+  }
+  if (!context_->makeCurrent()) {
+    return std::unexpected(Status{StatusLevel::Error, "NoOpenGl", "the context is in use on another thread"});
+  }
+  if (pipeline_ == nullptr || root_.get() != &root) {
+    pipeline_.reset();
+    root_ = &root;
+    pipeline_ = std::make_unique<ViewPipeline>(root_);
+  }
+  pipeline_->setView(view);
+  pipeline_->setBackground(options.background);
+  const auto start = std::chrono::steady_clock::now();
+  const auto drawn = pipeline_->renderLinear(options.width, options.height);
+  if (!drawn) {
+    return std::unexpected(drawn.error());
+  }
+  glFinish();
+  statistics_.frame_ms = millisecondsSince(start);
+  statistics_.passes = pipeline_->passes();
+  const auto read_start = std::chrono::steady_clock::now();
+  Picture picture = toPicture(pipeline_->readLinear(), options, pipeline_->projectionMatrix());
+  statistics_.read_back_ms = millisecondsSince(read_start);
+  return picture;
+}
+
+}  // namespace stillframe::scenegraph

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <expected>
+#include <memory>
+#include <osg/Group>
+#include <string>
+#include <vector>
+
+#include "scenegraph/camera/camera.h"
+#include "scenegraph/pipeline/offscreen_context.h"
+#include "scenegraph/pipeline/view_pipeline.h"
+#include "scenegraph/settings.h"
+#include "scenegraph/status.h"
+
+namespace stillframe::scenegraph {
+
+/// A picture as it left the scene pass: linear light, top row first.
+struct Picture {
+  int width = 0;
+  int height = 0;
+  std::vector<float> rgba;     ///< scene-linear, 4 a pixel; alpha is 1, since the background is opaque
+  std::vector<float> depth_m;  ///< metres along the view axis; +infinity where nothing was drawn
+};
+
+/// How large and on what.
+struct RenderOptions {
+  int width = 1280;
+  int height = 720;
+  Color background{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
+};
+
+/// What the last render() did and took, in milliseconds of wall time with the GPU drained.
+struct FrameStatistics {
+  double frame_ms = 0.0;      ///< culling and drawing
+  double read_back_ms = 0.0;  ///< from the target into the Picture
+  std::vector<std::string> passes;
+};
+
+/// Pictures of scene graphs without a window: `stillframe render`, tests, servers. Any one thread.
+class OffscreenRenderer {
+ public:
+  [[nodiscard]] static std::expected<std::unique_ptr<OffscreenRenderer>, Status> create();
+  ~OffscreenRenderer();
+  OffscreenRenderer(const OffscreenRenderer&) = delete;
+  OffscreenRenderer& operator=(const OffscreenRenderer&) = delete;
+
+  /// Draws `root` seen from `view`. Compiled programs and uploaded arrays are kept while `root` stays the same.
+  /// Refuses "BadSize" (not positive) and "TooLarge" (beyond the driver's largest texture or kMaxPixels).
+  std::expected<Picture, Status> render(osg::Group& root, const CameraView& view, const RenderOptions& options);
+
+  [[nodiscard]] const FrameStatistics& lastFrame() const noexcept { return statistics_; }
+  [[nodiscard]] OffscreenContext& context() noexcept { return *context_; }
+
+  /// 32 bytes a pixel are needed in all: 2 GiB.
+  static constexpr long long kMaxPixels = 1LL << 26;
+
+ private:
+  explicit OffscreenRenderer(std::unique_ptr<OffscreenContext> context) : context_(std::move(context)) {}
+
+  std::unique_ptr<OffscreenContext> context_;
+  osg::ref_ptr<osg::Group> root_;
+  std::unique_ptr<ViewPipeline> pipeline_;
+  FrameStatistics statistics_;
+};
+
+}  // namespace stillframe::scenegraph

@@ -1,0 +1,129 @@
+#include "scenegraph/export/picture_io.h"
+
+#include <png.h>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfThreading.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "scenegraph/export/replace_file.h"
+
+namespace stillframe::scenegraph {
+namespace {
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+std::uint8_t byteFromLinear(float linear) {
+  const double value = std::isnan(linear) ? 0.0 : std::clamp(static_cast<double>(linear), 0.0, 1.0);
+  const double srgb = value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(srgb * 255.0));
+}
+
+std::expected<void, std::string> writePngFile(const BytePicture& picture, const std::filesystem::path& path) {
+  errno = 0;
+  File file{std::fopen(path.c_str(), "wb")};
+  if (file == nullptr) {
+    return std::unexpected(lastSystemError());
+  }
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(picture.width);
+  image.height = static_cast<png_uint_32>(picture.height);
+  image.format = PNG_FORMAT_RGB;  // 8-bit components are sRGB by libpng's definition, and marked so
+  std::expected<void, std::string> result;
+  if (png_image_write_to_stdio(&image, file.get(), 0, picture.rgb.data(), 0, nullptr) == 0) {
+    result = std::unexpected(std::string(image.message) + " (" + lastSystemError() + ")");
+  }
+  // Bytes may still be on their way: a full disk shows when they are flushed.
+  if (result && std::fclose(file.release()) != 0) {
+    result = std::unexpected(lastSystemError());
+  }
+  return result;
+}
+
+std::expected<void, std::string> writeExrFile(const Picture& picture, const std::filesystem::path& path) {
+  const auto width = static_cast<std::size_t>(picture.width);
+  Imf::Header header(picture.width, picture.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::FrameBuffer buffer;
+  const auto add = [&](const char* name, const float* first, std::size_t stride) {
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    // OpenEXR's type for reading and writing alike; writing does not change what it points to.
+    auto* base = reinterpret_cast<char*>(const_cast<float*>(first));  // NOLINT
+    buffer.insert(name, Imf::Slice(Imf::FLOAT, base, stride * sizeof(float), stride * width * sizeof(float)));
+  };
+  add("R", picture.rgba.data(), 4);
+  add("G", picture.rgba.data() + 1, 4);
+  add("B", picture.rgba.data() + 2, 4);
+  add("A", picture.rgba.data() + 3, 4);
+  add("Z", picture.depth_m.data(), 1);
+  errno = 0;
+  try {
+    Imf::OutputFile file(path.c_str(), header);
+    file.setFrameBuffer(buffer);
+    file.writePixels(picture.height);
+  } catch (const std::exception& error) {
+    return std::unexpected(errno != 0 ? lastSystemError() : std::string(error.what()));
+  }
+  return {};
+}
+
+}  // namespace
+
+BytePicture toBytes(const Picture& picture) {
+  BytePicture bytes{.width = picture.width, .height = picture.height, .rgb = {}};
+  const std::size_t pixels = picture.rgba.size() / 4;
+  bytes.rgb.resize(pixels * 3);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      bytes.rgb[i * 3 + channel] = byteFromLinear(picture.rgba[i * 4 + channel]);
+    }
+  }
+  return bytes;
+}
+
+std::expected<void, Status> writePng(const BytePicture& picture, const std::filesystem::path& path) {
+  return replaceFile(path, [&](const std::filesystem::path& beside) { return writePngFile(picture, beside); });
+}
+
+std::expected<void, Status> writePng(const Picture& picture, const std::filesystem::path& path) {
+  return writePng(toBytes(picture), path);
+}
+
+std::expected<void, Status> writeExr(const Picture& picture, const std::filesystem::path& path) {
+  return replaceFile(path, [&](const std::filesystem::path& beside) { return writeExrFile(picture, beside); });
+}
+
+std::expected<BytePicture, Status> readPng(const std::filesystem::path& path) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  const auto failure = [&]() {
+    const std::string reason = image.message;
+    png_image_free(&image);
+    return std::unexpected(Status{StatusLevel::Error, "CannotRead", "cannot read " + path.string() + ": " + reason});
+  };
+  if (png_image_begin_read_from_file(&image, path.c_str()) == 0) {
+    return failure();
+  }
+  image.format = PNG_FORMAT_RGB;
+  BytePicture picture{.width = static_cast<int>(image.width), .height = static_cast<int>(image.height), .rgb = {}};
+  picture.rgb.resize(PNG_IMAGE_SIZE(image));
+  if (png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr) == 0) {
+    return failure();
+  }
+  return picture;
+}
+
+}  // namespace stillframe::scenegraph

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <vector>
+
+#include "scenegraph/pipeline/offscreen_renderer.h"
+#include "scenegraph/status.h"
+
+namespace stillframe::scenegraph {
+
+/// Pixels as a PNG holds them: sRGB-encoded red, green, blue, top row first.
+struct BytePicture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;
+
+  friend bool operator==(const BytePicture&, const BytePicture&) = default;
+};
+
+/// Exact sRGB encoding, rounded to the nearest byte; beyond [0, 1] is clamped, NaN is 0.
+[[nodiscard]] BytePicture toBytes(const Picture& picture);
+
+/// The writers write beside `path` and rename, so a failure leaves what was there. Equal pixels give equal files.
+/// Code "CannotWrite" names the path and the system's reason.
+
+/// 8-bit RGB PNG, marked sRGB.
+std::expected<void, Status> writePng(const BytePicture& picture, const std::filesystem::path& path);
+std::expected<void, Status> writePng(const Picture& picture, const std::filesystem::path& path);
+/// OpenEXR with 32-bit float channels R, G, B, A (scene-linear) and Z (metres along the view axis, +infinity where
+/// nothing was drawn), ZIP compressed.
+std::expected<void, Status> writeExr(const Picture& picture, const std::filesystem::path& path);
+/// Any 8-bit PNG; "CannotRead" otherwise.
+[[nodiscard]] std::expected<BytePicture, Status> readPng(const std::filesystem::path& path);
+
+}  // namespace stillframe::scenegraph

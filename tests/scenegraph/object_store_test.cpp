@@ -224,7 +224,8 @@ TEST(ObjectStore, OneWriterAndFourReadersAgree) {
   }
   Random random(11);
   for (int i = 0; i < 400; ++i) {
-    store.append(topic, std::vector<Entry>{entryAt(static_cast<std::int64_t>(random.index(2'000))), entryAt(static_cast<std::int64_t>(i))});
+    store.append(topic, std::vector<Entry>{entryAt(static_cast<std::int64_t>(random.index(2'000))),
+                                           entryAt(static_cast<std::int64_t>(i))});
   }
   store.addTopic(info("/b"), nullptr);
   has_ended = true;

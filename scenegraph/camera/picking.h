@@ -1,0 +1,42 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+
+#include "scenegraph/camera/camera.h"
+#include "scenegraph/frame_graph.h"
+
+namespace stillframe::scenegraph {
+
+/// A picture's size in device pixels.
+struct PictureSize {
+  double width_px = 0.0;
+  double height_px = 0.0;
+};
+
+/// Where a point falls in a picture.
+struct ScreenPoint {
+  glm::dvec2 position_px{0.0, 0.0};  ///< from the top left corner, y down; may lie outside the picture
+  double depth_m = 0.0;              ///< in front of the eye, along the line of sight
+};
+
+/// Pixel of a point in the fixed frame; nullopt when it lies before the near plane (perspective), is not finite, or the
+/// picture has no area.
+[[nodiscard]] std::optional<ScreenPoint> toScreen(const CameraView& view, const PictureSize& size,
+                                                  const glm::dvec3& point_in_fixed);
+
+/// A frame under the cursor.
+struct FramePick {
+  std::string frame;
+  double distance_px = 0.0;  ///< from the cursor to the frame's origin
+  double depth_m = 0.0;
+};
+
+/// The frame whose origin is nearest to the cursor in the picture, within `reach_px`; of origins at the same pixel the
+/// nearest to the eye, then the one first seen. Never one behind the eye or without a place at this tick. O(frames).
+[[nodiscard]] std::optional<FramePick> pickFrame(const FrameGraph& frames, const CameraView& view,
+                                                 const PictureSize& size, const glm::dvec2& cursor_px, double reach_px);
+
+}  // namespace stillframe::scenegraph

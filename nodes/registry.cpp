@@ -2,10 +2,19 @@
 
 #include <vector>
 
+#include "nodes/grid/grid_layer.h"
+#include "nodes/point_cloud/point_cloud_layer.h"
+#include "nodes/tf_axes/tf_axes_layer.h"
+
 namespace stillframe::nodes {
 
 std::span<const scenegraph::LayerType> layerTypes() {
-  static const std::vector<scenegraph::LayerType> kTypes{};
+  using enum scenegraph::ObjectType;
+  static const std::vector<scenegraph::LayerType> kTypes{
+      {"grid", "Grid", None, &GridLayer::create},
+      {"tf", "TF", None, &TfAxesLayer::create},
+      {"point_cloud", "Point cloud", PointCloud, &PointCloudLayer::create},
+  };
   return kTypes;
 }
 

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/ref_ptr>
+#include <string>
+#include <string_view>
+
+#include "nodes/line_state.h"
+#include "scenegraph/layer.h"
+
+namespace stillframe::nodes {
+
+/// The reference grid (REQUIREMENTS C12): lines on a plane through the origin of the fixed frame.
+///
+/// Hangs beneath the node of the fixed frame, or beneath the root while there is no frame at all. Costs nothing per
+/// tick; a change of size, count or plane rewrites some dozens of vertices, the colour is a uniform. GUI thread.
+class GridLayer final : public scenegraph::Layer {
+ public:
+  struct Settings {
+    double cell_size_m = 1.0;
+    std::int64_t cells = 10;
+    std::string plane = "xy";
+    scenegraph::Color color{.r = 0.36F, .g = 0.38F, .b = 0.41F, .a = 1.0F};
+
+    friend bool operator==(const Settings&, const Settings&) = default;
+  };
+
+  [[nodiscard]] static std::unique_ptr<scenegraph::Layer> create(std::string_view topic);
+
+  GridLayer();
+  void attach(const scenegraph::LayerContext& context) override;
+  void update(const scenegraph::Tick& tick) override;
+  void detach() override;
+  void setVisible(bool visible) override;
+  [[nodiscard]] bool isVisible() const override { return visible_; }
+  [[nodiscard]] const scenegraph::Status& status() const override { return status_; }
+  [[nodiscard]] scenegraph::LayerCounts counts() const override;
+  [[nodiscard]] std::string sourceFrame() const override { return held_frame_.value_or(""); }
+  [[nodiscard]] bool isPending() const override { return false; }
+  [[nodiscard]] osg::BoundingBoxd boundsInFixed() const override { return {}; }
+  [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
+  [[nodiscard]] scenegraph::SettingTexts settings() const override;
+  std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;
+
+ private:
+  void hang();
+  void unhang();
+  void applyChanges();
+
+  Settings settings_;
+  std::optional<Settings> applied_;
+  bool visible_ = true;
+  scenegraph::Status status_;
+  std::optional<scenegraph::LayerContext> context_;
+  std::optional<std::string> held_frame_;  // of the node acquired; "" while hanging beneath the root
+  osg::ref_ptr<osg::Geometry> geometry_;
+  LineState lines_;
+};
+
+}  // namespace stillframe::nodes

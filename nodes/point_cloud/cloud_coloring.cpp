@@ -1,0 +1,97 @@
+#include "nodes/point_cloud/cloud_coloring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace stillframe::nodes {
+namespace {
+
+bool hasChannel(const CloudPoints& cloud, std::string_view name) {
+  return std::ranges::find(cloud.channels(), name, &ChannelInfo::name) != cloud.channels().end();
+}
+
+std::string automaticField(const CloudPoints& cloud) {
+  if (cloud.hasColors()) {
+    return "rgb";
+  }
+  for (const char* name : {"intensity", "intensities", "Intensity", "i"}) {
+    if (hasChannel(cloud, name)) {
+      return name;
+    }
+  }
+  return "z";
+}
+
+std::optional<ColorChoice> choiceOf(const std::string& field, const CloudPoints& cloud) {
+  if (field == "x" || field == "y" || field == "z") {
+    return ColorChoice{.mode = ColorMode::Axis, .axis = field[0] - 'x', .channel = ""};
+  }
+  if (field == "flat") {
+    return ColorChoice{};
+  }
+  if (field == "rgb" && cloud.hasColors()) {
+    return ColorChoice{.mode = ColorMode::Rgb, .channel = ""};
+  }
+  if (hasChannel(cloud, field)) {
+    return ColorChoice{.mode = ColorMode::Value, .channel = field};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ColorChoice chooseColor(const std::string& color_field, const CloudPoints& reference, const CloudPoints& cloud) {
+  const bool is_auto = color_field == "auto";
+  if (const auto choice = choiceOf(is_auto ? automaticField(reference) : color_field, cloud)) {
+    return *choice;
+  }
+  if (is_auto) {
+    return *choiceOf(automaticField(cloud), cloud);
+  }
+  return ColorChoice{.mode = ColorMode::Flat, .channel = "", .is_missing = true};
+}
+
+ValueRange channelRange(const PointCloudSettings& settings, const std::string& channel, const CloudPoints& reference,
+                        const CloudPoints& cloud) {
+  if (settings.range_mode == "manual") {
+    return {settings.range_min, settings.range_max};
+  }
+  for (const CloudPoints* from : {&reference, &cloud}) {
+    const CloudChannel* const values = from->channel(channel);
+    if (values == nullptr || values->limits.finite == 0) {
+      continue;
+    }
+    if (settings.range_mode == "percentile") {
+      return from->channelPercentiles(channel, settings.percentile_low, settings.percentile_high);
+    }
+    return {values->limits.low, values->limits.high};
+  }
+  return {0.0, 0.0};
+}
+
+ValueRange axisRange(const PointCloudSettings& settings, int axis, const CloudPoints& cloud,
+                     const tf::RigidTransform& fixed_from_points) {
+  if (settings.range_mode == "manual") {
+    return {settings.range_min, settings.range_max};
+  }
+  glm::dvec3 low = cloud.converted().box_min;
+  glm::dvec3 high = cloud.converted().box_max;
+  if (settings.range_mode == "percentile") {
+    for (int i = 0; i < 3; ++i) {
+      const ValueRange range = cloud.axisPercentiles(i, settings.percentile_low, settings.percentile_high);
+      low[i] = range.low;
+      high[i] = range.high;
+    }
+  }
+  // The extent of the eight moved corners, without making them.
+  const glm::dmat4 matrix = tf::toMatrix(fixed_from_points);
+  const double centre = tf::transformPoint(fixed_from_points, low / 2.0 + high / 2.0)[axis];
+  double extent = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    extent += std::abs(matrix[i][axis]) * (high[i] / 2 - low[i] / 2);
+  }
+  return {centre - extent, centre + extent};
+}
+
+}  // namespace stillframe::nodes

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "nodes/point_cloud/cloud_points.h"
+#include "nodes/point_cloud/point_cloud_settings.h"
+#include "nodes/points/value_range.h"
+#include "tf/rigid_transform.h"
+
+namespace stillframe::nodes {
+
+/// What the points take their colour from; the numbers are the shader's.
+enum class ColorMode : std::uint8_t { Flat = 0, Rgb = 1, Value = 2, Axis = 3 };
+
+struct ColorChoice {
+  ColorMode mode = ColorMode::Flat;
+  int axis = 2;             ///< Axis: 0, 1, 2 of the fixed frame
+  std::string channel;      ///< Value
+  bool is_missing = false;  ///< the cloud does not have what the settings name: Flat instead
+
+  friend bool operator==(const ColorChoice&, const ColorChoice&) = default;
+};
+
+/// What `color_field` means for `cloud`. "auto" goes by `reference`, the first cloud of the topic, so that it does not
+/// change under way; where `cloud` lacks that, by `cloud`.
+[[nodiscard]] ColorChoice chooseColor(const std::string& color_field, const CloudPoints& reference,
+                                      const CloudPoints& cloud);
+
+/// Range of a field, held across time: of `reference` where it has the field, else of `cloud`.
+[[nodiscard]] ValueRange channelRange(const PointCloudSettings& settings, const std::string& channel,
+                                      const CloudPoints& reference, const CloudPoints& cloud);
+/// Range of an axis of the fixed frame: the cloud's source box (or its percentiles) moved to where it is now.
+[[nodiscard]] ValueRange axisRange(const PointCloudSettings& settings, int axis, const CloudPoints& cloud,
+                                   const tf::RigidTransform& fixed_from_points);
+
+}  // namespace stillframe::nodes

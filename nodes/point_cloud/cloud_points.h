@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <expected>
+#include <memory>
+#include <optional>
+#include <osg/Array>
+#include <osg/ref_ptr>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nodes/points/channel.h"
+#include "nodes/points/convert_cloud.h"
+#include "nodes/points/point_colors.h"
+#include "nodes/points/value_range.h"
+#include "scenegraph/objects/point_cloud.h"
+#include "scenegraph/status.h"
+
+namespace stillframe::nodes {
+
+/// A channel as it is uploaded, with what its colours need.
+struct CloudChannel {
+  osg::ref_ptr<osg::FloatArray> values;
+  ChannelValues limits;
+};
+
+/// A cloud in the form that is drawn: positions now, channels and colours when first asked for.
+///
+/// Made on a worker, cached, shared by all views; the arrays are uploaded once per context and never written again.
+/// channel(), colors() and the percentiles convert on first use (some milliseconds per million points) and remember;
+/// any thread may call them.
+class CloudPoints {
+ public:
+  [[nodiscard]] static std::expected<CloudPoints, scenegraph::Status> make(
+      std::shared_ptr<const scenegraph::PointCloud> cloud);
+  CloudPoints(CloudPoints&&) noexcept;
+  CloudPoints& operator=(CloudPoints&&) noexcept;
+  ~CloudPoints();
+
+  [[nodiscard]] const scenegraph::PointCloud& source() const noexcept { return *cloud_; }
+  [[nodiscard]] const ConvertedCloud& converted() const noexcept { return converted_; }
+  [[nodiscard]] osg::Vec3Array* positions() const noexcept { return positions_.get(); }
+  [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept { return channels_; }
+  [[nodiscard]] bool hasColors() const noexcept { return color_source_.has_value(); }
+
+  /// nullptr when there is no channel of that name. Valid as long as this.
+  [[nodiscard]] const CloudChannel* channel(std::string_view name) const;
+  /// nullptr without per-point colour.
+  [[nodiscard]] osg::Vec4ubArray* colors() const;
+  /// Percentiles of a channel; {0, 0} when there is none of that name.
+  [[nodiscard]] ValueRange channelPercentiles(std::string_view name, double low, double high) const;
+  /// Percentiles of x (0), y (1) or z (2) in the cloud's own coordinates.
+  [[nodiscard]] ValueRange axisPercentiles(int axis, double low, double high) const;
+
+  /// Frees the arrays on the GPU, in every context; the next draw uploads them again. GUI thread.
+  void releaseGlObjects() const;
+
+  /// Payload, positions and one channel.
+  [[nodiscard]] std::size_t byteSize() const noexcept;
+
+ private:
+  struct Lazy;
+  CloudPoints();
+
+  std::shared_ptr<const scenegraph::PointCloud> cloud_;
+  ConvertedCloud converted_;
+  osg::ref_ptr<osg::Vec3Array> positions_;
+  std::vector<ChannelInfo> channels_;
+  std::optional<ColorSource> color_source_;
+  std::unique_ptr<Lazy> lazy_;
+};
+
+}  // namespace stillframe::nodes

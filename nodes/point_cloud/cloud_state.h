@@ -1,0 +1,47 @@
+#pragma once
+
+#include <osg/StateSet>
+#include <osg/Uniform>
+#include <osg/Vec4d>
+#include <osg/ref_ptr>
+#include <string>
+
+#include "nodes/point_cloud/cloud_coloring.h"
+#include "nodes/point_cloud/point_cloud_settings.h"
+#include "nodes/points/value_range.h"
+
+namespace stillframe::nodes {
+
+/// Program and uniforms of one cloud layer: everything that settings change. GUI thread.
+class CloudState {
+ public:
+  /// The shader's a_value; OSG's other arrays keep clear of it.
+  static constexpr unsigned kValueAttribute = 6;
+
+  CloudState();
+  [[nodiscard]] osg::StateSet* stateSet() const noexcept { return state_.get(); }
+
+  void apply(const PointCloudSettings& settings);
+  void setMode(ColorMode mode);
+  /// t = value * scale + bias of the array's values.
+  void setValueMap(const RangeMap& map);
+  /// t = dot(coefficients.xyz, vertex) + coefficients.w.
+  void setAxisMap(const osg::Vec4d& coefficients);
+
+ private:
+  void setColormap(const std::string& name);
+
+  osg::ref_ptr<osg::StateSet> state_;
+  osg::ref_ptr<osg::Uniform> mode_;
+  osg::ref_ptr<osg::Uniform> axis_;
+  osg::ref_ptr<osg::Uniform> value_;
+  osg::ref_ptr<osg::Uniform> colormap_;
+  osg::ref_ptr<osg::Uniform> flat_color_;
+  osg::ref_ptr<osg::Uniform> missing_color_;
+  osg::ref_ptr<osg::Uniform> opacity_;
+  osg::ref_ptr<osg::Uniform> point_size_;
+  osg::ref_ptr<osg::Uniform> size_in_metres_;
+  osg::ref_ptr<osg::Uniform> round_points_;
+};
+
+}  // namespace stillframe::nodes

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "scenegraph/settings.h"
+
+namespace stillframe::nodes {
+
+/// How a cloud is drawn. None of it changes a vertex.
+struct PointCloudSettings {
+  std::string color_field = "auto";
+  std::string colormap = "turbo";
+  bool reverse_colormap = false;
+  std::string range_mode = "auto";
+  double range_min = 0.0;
+  double range_max = 1.0;
+  double percentile_low = 1.0;
+  double percentile_high = 99.0;
+  double point_size = 2.0;
+  std::string size_unit = "px";
+  bool round_points = false;
+  double opacity = 1.0;
+  scenegraph::Color flat_color{.r = 0.85F, .g = 0.87F, .b = 0.9F, .a = 1.0F};
+  scenegraph::Color missing_color{.r = 0.45F, .g = 0.45F, .b = 0.45F, .a = 1.0F};
+
+  friend bool operator==(const PointCloudSettings&, const PointCloudSettings&) = default;
+};
+
+/// Keys, ranges and help; the choices of color_field that every cloud has.
+[[nodiscard]] const scenegraph::SettingsTable<PointCloudSettings>& pointCloudSettingsTable();
+
+}  // namespace stillframe::nodes

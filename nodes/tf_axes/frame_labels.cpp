@@ -1,0 +1,51 @@
+#include "nodes/tf_axes/frame_labels.h"
+
+#include <filesystem>
+#include <osgText/Text>
+
+#include "nodes/osg_math.h"
+
+namespace stillframe::nodes {
+namespace {
+
+osg::ref_ptr<osgText::Font> findFont() {
+  for (const char* path : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                           "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+                           "/usr/share/fonts/truetype/liberation2/LiberationSans-Regular.ttf"}) {
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored)) {
+      if (osg::ref_ptr<osgText::Font> font = osgText::readRefFontFile(path)) {
+        return font;
+      }
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+osg::ref_ptr<osg::Node> FrameLabels::make(const std::string& name, double height_px, const scenegraph::Color& color) {
+  if (!has_looked_) {
+    font_ = findFont();
+    has_looked_ = true;
+  }
+  osg::ref_ptr<osgText::Text> text = new osgText::Text;
+  text->setName("label");
+  text->setUseDisplayList(false);
+  text->setUseVertexBufferObjects(true);
+  text->setUseVertexArrayObject(false);
+  if (font_.valid()) {
+    text->setFont(font_);
+  }
+  text->setCharacterSizeMode(osgText::TextBase::SCREEN_COORDS);
+  text->setCharacterSize(static_cast<float>(height_px));
+  text->setAxisAlignment(osgText::TextBase::SCREEN);
+  text->setAlignment(osgText::TextBase::LEFT_BOTTOM);
+  text->setText(name, osgText::String::ENCODING_UTF8);
+  text->setColor(toOsg(color));
+  // Its true size depends on the camera: a bound from the text would cull it wrongly.
+  text->setCullingActive(false);
+  return text;
+}
+
+}  // namespace stillframe::nodes

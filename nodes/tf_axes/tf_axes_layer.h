@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <osg/Geometry>
+#include <osg/Group>
+#include <osg/MatrixTransform>
+#include <osg/ref_ptr>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nodes/line_state.h"
+#include "nodes/tf_axes/frame_labels.h"
+#include "scenegraph/layer.h"
+
+namespace stillframe::nodes {
+
+/// A triad at every frame and a line from each frame to its parent (REQUIREMENTS C1).
+///
+/// All triads are one geometry and all lines another; a tick writes matrices only, of what moved. Each line lies in its
+/// child's frame and is scaled in double, so that frames on the far side of the earth cost no precision. A tick costs
+/// one lookup per shown frame with a parent; nothing when time, fixed frame, transforms and settings are as before. GUI
+/// thread.
+class TfAxesLayer final : public scenegraph::Layer {
+ public:
+  struct Settings {
+    double axis_length_m = 0.3;
+    bool show_axes = true;
+    bool show_parent_lines = true;
+    bool show_labels = false;
+    double label_height_px = 16.0;
+    std::string frame_filter;
+    std::string hidden_frames;
+    scenegraph::Color line_color{.r = 1.0F, .g = 0.0F, .b = 1.0F, .a = 1.0F};
+    scenegraph::Color label_color{.r = 0.95F, .g = 0.95F, .b = 0.95F, .a = 1.0F};
+
+    friend bool operator==(const Settings&, const Settings&) = default;
+  };
+
+  [[nodiscard]] static std::unique_ptr<scenegraph::Layer> create(std::string_view topic);
+
+  TfAxesLayer();
+  ~TfAxesLayer() override;
+  void attach(const scenegraph::LayerContext& context) override;
+  void update(const scenegraph::Tick& tick) override;
+  void detach() override;
+  void setVisible(bool visible) override;
+  [[nodiscard]] bool isVisible() const override { return visible_; }
+  [[nodiscard]] const scenegraph::Status& status() const override { return status_; }
+  /// "frames" shown, "unresolved" ones that cannot be expressed at the tick.
+  [[nodiscard]] scenegraph::LayerCounts counts() const override;
+  [[nodiscard]] std::string sourceFrame() const override { return ""; }
+  [[nodiscard]] bool isPending() const override { return false; }
+  [[nodiscard]] osg::BoundingBoxd boundsInFixed() const override { return bounds_; }
+  [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
+  [[nodiscard]] scenegraph::SettingTexts settings() const override;
+  /// Refuses a frame_filter that is no regular expression.
+  std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;
+
+ private:
+  /// What hangs beneath one frame's node.
+  struct Shown {
+    tf::FrameId id = tf::kNoFrame;
+    std::string name;
+    tf::FrameId parent = tf::kNoFrame;
+    osg::ref_ptr<osg::Group> group;
+    osg::ref_ptr<osg::MatrixTransform> line;  // null for a root
+  };
+  /// What the last update saw; equal means nothing to do.
+  struct Inputs {
+    tf::TimePoint time;
+    std::string fixed_frame;
+    std::uint64_t revision = 0;
+    Settings settings;
+
+    friend bool operator==(const Inputs&, const Inputs&) = default;
+  };
+
+  void rebuild();
+  void hang(Shown& shown);
+  void clear();
+  void poseLine(Shown& shown, tf::TimePoint time);
+  void judge();
+
+  Settings settings_;
+  std::optional<Inputs> applied_;
+  bool visible_ = true;
+  scenegraph::Status status_;
+  std::optional<scenegraph::LayerContext> context_;
+  std::vector<Shown> shown_;
+  std::uint64_t resolved_ = 0;
+  osg::BoundingBoxd bounds_;
+  osg::ref_ptr<osg::Geometry> triad_;
+  osg::ref_ptr<osg::Geometry> unit_line_;
+  LineState line_state_;
+  FrameLabels labels_;
+};
+
+}  // namespace stillframe::nodes

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+#include "tools/ingest/compression.h"
+
+namespace stillframe::ingest {
+
+/// The chunks unpacked last, within a bound in bytes. Any thread; a chunk that several want at once is unpacked once.
+///
+/// A chunk in use lives on after it was evicted. A chunk that could not be unpacked is remembered as such.
+class ChunkCache {
+ public:
+  using Chunk = std::expected<Buffer, std::string>;
+
+  explicit ChunkCache(std::size_t max_bytes) : max_bytes_(max_bytes) {}
+  /// The chunk of that key; `unpack` makes it when it is not there. Blocks while another thread makes it.
+  [[nodiscard]] std::shared_ptr<const Chunk> get(std::uint64_t key, const std::function<Chunk()>& unpack);
+
+ private:
+  struct Slot {
+    std::once_flag once;
+    Chunk chunk;
+  };
+  struct Item {
+    std::uint64_t key = 0;
+    std::shared_ptr<Slot> slot;
+    std::size_t bytes = 0;
+  };
+
+  std::mutex mutex_;       // guards everything below
+  std::list<Item> items_;  // front = most recently used
+  std::unordered_map<std::uint64_t, std::list<Item>::iterator> index_;
+  std::size_t bytes_ = 0;
+  std::size_t max_bytes_;
+};
+
+}  // namespace stillframe::ingest

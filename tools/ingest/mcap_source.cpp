@@ -1,0 +1,124 @@
+#include "tools/ingest/mcap_source.h"
+
+#include <array>
+#include <utility>
+
+#include "tools/ingest/field_reader.h"
+#include "tools/ingest/sentence.h"
+
+namespace stillframe::ingest {
+
+namespace {
+
+constexpr std::size_t kCachedChunkBytes = std::size_t{128} << 20;
+
+scenegraph::DecodeError misplaced(const Locator& place, const std::string& path, const char* why) {
+  return {"BadMessageIndex",
+          sentence("the index of '", path, "' points at offset ", place.offset, ", where there is ", why)};
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> Locator::pack() const noexcept {
+  if (file >= kMaxFiles) {
+    return std::nullopt;
+  }
+  if (chunk == FoundMessage::kNoChunk) {
+    return offset >> 53 == 0 ? std::optional(std::uint64_t{1} << 63 | std::uint64_t{file} << 53 | offset)
+                             : std::nullopt;
+  }
+  if (chunk >= kMaxChunks || offset >= kMaxChunkOffset) {
+    return std::nullopt;
+  }
+  return std::uint64_t{file} << 53 | std::uint64_t{chunk} << 31 | offset;
+}
+
+Locator Locator::unpack(std::uint64_t bits) noexcept {
+  const auto file = static_cast<std::size_t>(bits >> 53 & (kMaxFiles - 1));
+  if (bits >> 63 != 0) {
+    return {file, FoundMessage::kNoChunk, bits & ((std::uint64_t{1} << 53) - 1)};
+  }
+  return {file, static_cast<std::uint32_t>(bits >> 31 & (kMaxChunks - 1)), bits & (kMaxChunkOffset - 1)};
+}
+
+McapSource::McapSource(std::vector<std::shared_ptr<const McapFile>> files)
+    : files_(std::move(files)), chunks_(kCachedChunkBytes) {
+  for (const auto& file : files_) {
+    std::map<std::pair<std::uint16_t, std::string>, ChannelDecoder> decoders;  // channels share those of their schema
+    auto& channels = channels_.emplace_back();
+    for (const auto& [id, channel] : file->channels()) {
+      const auto schema = file->schemas().find(channel.schema_id);
+      const SchemaRecord* known = schema == file->schemas().end() ? nullptr : &schema->second;
+      const auto [decoder, is_new] = decoders.try_emplace({channel.schema_id, channel.message_encoding});
+      if (is_new) {
+        decoder->second = makeDecoder(known, channel.message_encoding);
+      }
+      channels[id] = {channel.topic, known == nullptr ? "" : known->name, decoder->second};
+    }
+  }
+}
+
+std::expected<McapSource::Located, scenegraph::DecodeError> McapSource::locate(const Locator& place) const {
+  const McapFile& file = *files_[place.file];
+  if (place.chunk == FoundMessage::kNoChunk) {
+    std::array<std::byte, kRecordHeaderBytes> head{};
+    if (file.file().read(place.offset, head) != head.size()) {
+      return std::unexpected(misplaced(place, file.file().path(), "the end of the file"));
+    }
+    FieldReader reader(head);
+    static_cast<void>(reader.number<std::uint8_t>());
+    const auto length = reader.number<std::uint64_t>();
+    if (length > file.file().size() - place.offset - kRecordHeaderBytes) {
+      return std::unexpected(misplaced(place, file.file().path(), "a record that reaches past the end"));
+    }
+    const auto bytes = static_cast<std::size_t>(kRecordHeaderBytes + length);
+    auto record = std::make_shared_for_overwrite<std::byte[]>(bytes);
+    if (file.file().read(place.offset, {record.get(), bytes}) != bytes) {
+      return std::unexpected(misplaced(place, file.file().path(), "the end of the file"));
+    }
+    const std::span<const std::byte> view(record.get(), bytes);
+    return Located{std::move(record), view, view};
+  }
+  if (place.chunk >= file.chunks().size()) {
+    return std::unexpected(misplaced(place, file.file().path(), "no chunk"));
+  }
+  auto chunk = chunks_.get(std::uint64_t{place.file} << 32 | place.chunk, [&] { return file.unpack(place.chunk); });
+  if (!*chunk) {
+    return std::unexpected(scenegraph::DecodeError{"BadChunk", chunk->error()});
+  }
+  const auto records = (*chunk)->bytes();
+  if (place.offset >= records.size()) {
+    return std::unexpected(misplaced(place, file.file().path(), "the end of the chunk"));
+  }
+  return Located{std::move(chunk), records, records.subspan(static_cast<std::size_t>(place.offset))};
+}
+
+std::expected<scenegraph::AnyObject, scenegraph::DecodeError> McapSource::decode(const scenegraph::TopicInfo& topic,
+                                                                                 const scenegraph::Entry& entry) const {
+  const Locator place = Locator::unpack(entry.locator);
+  if (place.file >= files_.size()) {
+    return std::unexpected(scenegraph::DecodeError{"BadMessageIndex", "the entry is not of this recording"});
+  }
+  auto located = locate(place);
+  if (!located) {
+    return std::unexpected(std::move(located).error());
+  }
+  const std::string& path = files_[place.file]->file().path();
+  FieldReader reader(located->record);
+  const auto opcode = reader.number<std::uint8_t>();
+  const auto message = parseMessage(reader.bytes(reader.number<std::uint64_t>()));
+  if (!reader.isGood() || opcode != static_cast<std::uint8_t>(Opcode::Message) || !message) {
+    return std::unexpected(misplaced(place, path, "no message"));
+  }
+  const auto channel = channels_[place.file].find(message->channel_id);
+  if (channel == channels_[place.file].end() || channel->second.topic != topic.name) {
+    return std::unexpected(misplaced(place, path, "a message of another topic"));
+  }
+  if (channel->second.decoder.decoder == nullptr) {
+    return std::unexpected(scenegraph::DecodeError{"Unsupported", channel->second.decoder.unsupported_reason});
+  }
+  return channel->second.decoder.decoder->decode(
+      {message->data, std::move(located->anchor), located->block.size(), entry.log_time});
+}
+
+}  // namespace stillframe::ingest

@@ -47,8 +47,8 @@ void FrameGraph::pose(const std::string& frame, osg::MatrixTransform& node) {
   const osg::Node::NodeMask mask = fixed_from_frame ? kShown : 0U;
   if (fixed_from_frame) {
     const osg::Matrixd matrix(glm::value_ptr(tf::toMatrix(*fixed_from_frame)));
-    // By value, not by bits: 0 and -0 place alike.
-    if (matrix != node.getMatrix()) {
+    // By bits: the state must not depend on which of 0 and -0 was there before.
+    if (std::memcmp(matrix.ptr(), node.getMatrix().ptr(), sizeof(matrix)) != 0) {
       node.setMatrix(matrix);
       ++counts_.matrices_written;
     }

@@ -51,6 +51,9 @@ struct SettingError {
   std::string message;  ///< names the key, the text and what would be accepted
 };
 
+/// A parsed setting.
+using SettingValue = std::variant<bool, std::int64_t, double, std::string, Color>;
+
 /// Binds keys to members of a plain settings struct, so that a layer lists each setting once.
 ///
 /// ```cpp
@@ -77,6 +80,9 @@ class SettingsTable {
   std::expected<void, SettingError> apply(const SettingTexts& texts, S& settings) const;
 
  private:
+  // Not inlined: GCC 12 would warn (-Warray-bounds) of member types that S does not have.
+  [[gnu::noinline]] static void assign(S& settings, const Member& member, const SettingValue& value);
+
   std::vector<Row> rows_;
 };
 
@@ -86,8 +92,17 @@ class SettingsTable {
 [[nodiscard]] std::string settingText(double value);
 [[nodiscard]] std::string settingText(const std::string& value);
 [[nodiscard]] std::string settingText(const Color& value);
-using SettingValue = std::variant<bool, std::int64_t, double, std::string, Color>;
 [[nodiscard]] std::expected<SettingValue, SettingError> parseSetting(const SettingSpec& spec, std::string_view text);
+
+template <typename S>
+void SettingsTable<S>::assign(S& settings, const Member& member, const SettingValue& value) {
+  std::visit(
+      [&](auto pointer) {
+        using Value = std::remove_reference_t<decltype(settings.*pointer)>;
+        settings.*pointer = std::get<Value>(value);
+      },
+      member);
+}
 
 template <typename S>
 std::vector<SettingSpec> SettingsTable<S>::specs() const {
@@ -128,12 +143,7 @@ std::expected<void, SettingError> SettingsTable<S>::apply(const SettingTexts& te
     if (!value) {
       return std::unexpected(value.error());
     }
-    std::visit(
-        [&](auto member) {
-          using Value = std::remove_reference_t<decltype(changed.*member)>;
-          changed.*member = std::get<Value>(*value);
-        },
-        found->member);
+    assign(changed, found->member, *value);
   }
   settings = std::move(changed);
   return {};

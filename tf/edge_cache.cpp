@@ -7,19 +7,60 @@
 
 namespace stillframe::tf {
 
-std::optional<EdgeCache::Cursor> EdgeCache::find(TimePoint time) const noexcept {
-  const std::size_t block_count = countAtOrBefore(firsts_, time.ns);
-  if (block_count == 0) {
+std::optional<EdgeCache::Cursor> EdgeCache::find(TimePoint time) const noexcept { return find(probeBlock(time), time); }
+
+std::optional<EdgeCache::Cursor> EdgeCache::find(const Probe& probe, TimePoint time) const noexcept {
+  if (probe.block_count == 0) {
     return std::nullopt;
   }
-  const std::size_t block = block_count - 1;
-  const std::size_t index = countAtOrBefore(blocks_[block].stamps, time.ns) - 1;
-  return Cursor{static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(index)};
+  const std::size_t block_index = probe.block_count - 1;
+  const Block& block = blocks_[block_index];
+  // Near the guess first: the ends of the block are other cache lines.
+  std::size_t count = block.stamps.size() + 1;
+  if (block.stamps.size() >= kStampWindow) {
+    count = countNearGuess(block.stamps, time.ns, block.guess(probe));
+  }
+  if (count > block.stamps.size()) {
+    count = countAtOrBefore(block.stamps, time.ns);
+  }
+  return Cursor{static_cast<std::uint32_t>(block_index), static_cast<std::uint32_t>(count - 1)};
 }
 
 const RigidTransform* EdgeCache::at(TimePoint time) const noexcept {
   const auto cursor = find(time);
   return cursor ? &pose(*cursor) : nullptr;
+}
+
+void EdgeCache::prefetchIndex(TimePoint time) const noexcept {
+  if (firsts_.size() > 64 && time.ns >= firsts_.front() && time.ns < firsts_.back()) {
+    __builtin_prefetch(&firsts_[interpolatedIndex(firsts_.front(), firsts_.back(), firsts_.size() - 1, time.ns)]);
+  }
+}
+
+EdgeCache::Probe EdgeCache::probeBlock(TimePoint time) const noexcept {
+  const std::size_t block_count = countAtOrBefore(firsts_, time.ns);
+  if (block_count == 0) {
+    return {};
+  }
+  __builtin_prefetch(&blocks_[block_count - 1]);
+  const std::int64_t first = firsts_[block_count - 1];
+  const bool last_block = block_count == firsts_.size();
+  const std::int64_t next = last_block ? last_ : firsts_[block_count];
+  if (time.ns >= next) {
+    return {block_count, 1.0};
+  }
+  return {block_count, secondsBetween(TimePoint{first}, time) / secondsBetween(TimePoint{first}, TimePoint{next})};
+}
+
+void EdgeCache::prefetchSample(const Probe& probe) const noexcept {
+  if (probe.block_count == 0) {
+    return;
+  }
+  const Block& block = blocks_[probe.block_count - 1];
+  const std::size_t guess = block.guess(probe);
+  __builtin_prefetch(&block.stamps[guess]);
+  __builtin_prefetch(&block.poses[guess]);
+  __builtin_prefetch(&block.poses[guess].translation.z);  // a pose may straddle two cache lines
 }
 
 void EdgeCache::insert(TimePoint stamp, const RigidTransform& parent_from_child) {

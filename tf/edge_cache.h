@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -28,6 +29,17 @@ class EdgeCache {
 
   /// Sample in force at `time`; nullopt when `time` precedes every stamp.
   [[nodiscard]] std::optional<Cursor> find(TimePoint time) const noexcept;
+  /// A search in three steps, for many edges at once: each step prefetches what the next one reads.
+  struct Probe {
+    std::size_t block_count = 0;  ///< blocks that start at or before the time
+    double fraction = 0.0;        ///< where in the last of them the time would lie at a steady rate
+  };
+  void prefetchIndex(TimePoint time) const noexcept;
+  [[nodiscard]] Probe probeBlock(TimePoint time) const noexcept;
+  void prefetchSample(const Probe& probe) const noexcept;
+  /// Sample in force at `time`, for the probe of that time.
+  [[nodiscard]] std::optional<Cursor> find(const Probe& probe, TimePoint time) const noexcept;
+
   /// Pose in force at `time`, or nullptr when `time` precedes every stamp. Valid until the next change.
   [[nodiscard]] const RigidTransform* at(TimePoint time) const noexcept;
   [[nodiscard]] TimePoint stamp(Cursor cursor) const noexcept { return {blocks_[cursor.block].stamps[cursor.index]}; }
@@ -52,6 +64,12 @@ class EdgeCache {
 
  private:
   struct Block {
+    [[nodiscard]] std::size_t guess(const Probe& probe) const noexcept {
+      const std::size_t count = stamps.size();
+      const double index = probe.fraction * static_cast<double>(count);
+      return std::min(static_cast<std::size_t>(static_cast<std::int64_t>(index)), count - 1);
+    }
+
     std::vector<std::int64_t> stamps;
     std::vector<RigidTransform> poses;
   };

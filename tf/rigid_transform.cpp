@@ -8,7 +8,7 @@
 namespace stillframe::tf {
 
 RigidTransform operator*(const RigidTransform& c_from_b, const RigidTransform& b_from_a) noexcept {
-  return narrow(compose(c_from_b, widen(b_from_a)));
+  return narrow(compose(widen(c_from_b), widen(b_from_a)));
 }
 
 RigidTransform inverse(const RigidTransform& b_from_a) noexcept {

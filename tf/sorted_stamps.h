@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,22 +21,50 @@ namespace stillframe::tf {
   return index < count ? index : count - 1;
 }
 
+/// Stamps that one look around a guess compares, without a branch to mispredict.
+inline constexpr std::size_t kStampWindow = 8;
+
+/// Number of `stamps` at or before `stamp` if that lies within a window around `guess`; stamps.size() + 1 if not. Needs
+/// at least kStampWindow stamps and guess < stamps.size().
+[[nodiscard]] inline std::size_t countNearGuess(std::span<const std::int64_t> stamps, std::int64_t stamp,
+                                                std::size_t guess) noexcept {
+  constexpr std::size_t kBefore = kStampWindow / 2;
+  const std::size_t start = std::min(guess < kBefore ? 0 : guess - kBefore, stamps.size() - kStampWindow);
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < kStampWindow; ++i) {
+    inside += stamps[start + i] <= stamp ? 1 : 0;
+  }
+  const bool low_end_known = inside > 0 || start == 0;
+  const bool high_end_known = inside < kStampWindow || start + kStampWindow == stamps.size();
+  return low_end_known && high_end_known ? start + inside : stamps.size() + 1;
+}
+
 /// Number of `stamps` (strictly ascending) at or before `stamp`.
 ///
-/// Starts where evenly spaced stamps would have it and gallops from there: a few probes for a steady rate, whatever the
+/// Looks where evenly spaced stamps would have it and gallops from there: one look for a steady rate, whatever the
 /// length; O(log n) for any spacing.
 [[nodiscard]] inline std::size_t countAtOrBefore(std::span<const std::int64_t> stamps, std::int64_t stamp) noexcept {
   const std::size_t count = stamps.size();
-  if (count == 0 || stamp < stamps.front()) {
+  if (count < kStampWindow) {
+    std::size_t result = 0;
+    for (const std::int64_t each : stamps) {
+      result += each <= stamp ? 1 : 0;
+    }
+    return result;
+  }
+  if (stamp < stamps.front()) {
     return 0;
   }
   if (stamp >= stamps.back()) {
     return count;
   }
+  const std::size_t guess = interpolatedIndex(stamps.front(), stamps.back(), count - 1, stamp);
+  if (const std::size_t near = countNearGuess(stamps, stamp, guess); near <= count) {
+    return near;
+  }
   // Invariant from here: stamps[low] <= stamp < stamps[high].
   std::size_t low = 0;
   std::size_t high = count - 1;
-  const std::size_t guess = interpolatedIndex(stamps.front(), stamps.back(), count - 1, stamp);
   if (stamps[guess] <= stamp) {
     low = guess;
     for (std::size_t step = 1; low + step < high; step *= 2) {

@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "tf/chain_accumulator.h"
 #include "tf/errors.h"
 #include "tf/rigid_transform.h"
 #include "tf/time.h"
-#include "tf/wide_transform.h"
 
 namespace stillframe::tf {
 
@@ -55,7 +55,8 @@ struct EdgeInfo {
 
 /// What TransformBuffer::snapshot() works in; of no meaning outside it.
 struct SnapshotScratch {
-  std::vector<WideTransform> root_from_frame;
+  std::vector<const RigidTransform*> poses;
+  std::vector<ChainAccumulator> root_from_frame;
   std::vector<std::uint8_t> done;
   std::vector<FrameId> path;
 };

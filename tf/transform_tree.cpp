@@ -1,7 +1,9 @@
 #include "tf/transform_tree.h"
 
+#include <algorithm>
 #include <limits>
 
+#include "tf/chain_accumulator.h"
 #include "tf/wide_transform.h"
 
 namespace stillframe::tf {
@@ -85,15 +87,6 @@ TransformTree::Climb TransformTree::climb(FrameId frame) const noexcept {
   return {frame, steps};
 }
 
-const RigidTransform* TransformTree::poseInForce(FrameId child, TimePoint time) const noexcept {
-  const Edge& edge = edges_[child];
-  const RigidTransform* pose = edge.samples.at(time);
-  if (pose == nullptr && static_for_all_time && edge.is_static) {
-    return &edge.samples.firstPose();
-  }
-  return pose;
-}
-
 std::optional<TimePoint> TransformTree::stampInForce(FrameId frame, TimePoint time) const noexcept {
   if (parent(frame) == kNoFrame) {
     return std::nullopt;
@@ -110,17 +103,63 @@ LookupFailure TransformTree::noSample(FrameId target, FrameId source, FrameId ch
   return {LookupError::NoSampleAtTime, target, source, child, time, samples.first(), samples.last()};
 }
 
-/// Child of the first edge without a sample, or kNoFrame when ancestor_from_frame is complete.
-FrameId TransformTree::composeUpTo(FrameId ancestor, FrameId frame, TimePoint time,
-                                   WideTransform& ancestor_from_frame) const noexcept {
-  for (; frame != ancestor; frame = parents_[frame]) {
-    const RigidTransform* parent_from_frame = poseInForce(frame, time);
-    if (parent_from_frame == nullptr) {
-      return frame;
-    }
-    ancestor_from_frame = compose(*parent_from_frame, ancestor_from_frame);
+/// Fills segment.poses.
+void TransformTree::resolve(Segment& segment, TimePoint time) const noexcept {
+  // Each pass asks for the memory that the next one reads: in a long recording every edge costs a handful of cache
+  // misses, and this way those of all edges are waited for together.
+  std::array<EdgeCache::Probe, Segment::kEdges> probes;
+  for (std::size_t i = 0; i < segment.count; ++i) {
+    edges_[segment.children[i]].samples.prefetchIndex(time);
   }
-  return kNoFrame;
+  for (std::size_t i = 0; i < segment.count; ++i) {
+    probes[i] = edges_[segment.children[i]].samples.probeBlock(time);
+  }
+  for (std::size_t i = 0; i < segment.count; ++i) {
+    edges_[segment.children[i]].samples.prefetchSample(probes[i]);
+  }
+  for (std::size_t i = 0; i < segment.count; ++i) {
+    const Edge& edge = edges_[segment.children[i]];
+    if (const auto cursor = edge.samples.find(probes[i], time)) {
+      segment.poses[i] = &edge.samples.pose(*cursor);
+      __builtin_prefetch(segment.poses[i]);
+      __builtin_prefetch(&segment.poses[i]->translation.z);
+    } else {
+      segment.poses[i] = static_for_all_time && edge.is_static ? &edge.samples.firstPose() : nullptr;
+    }
+  }
+}
+
+/// ancestor_from_frame, into `wide` as well unless null; or the child of the first edge without a sample.
+std::expected<RigidTransform, FrameId> TransformTree::composeUpTo(FrameId ancestor, FrameId frame, TimePoint time,
+                                                                  WideTransform* wide) const noexcept {
+  WideTransform wide_top_from_frame;
+  Segment segment;
+  for (bool first = true;; first = false) {
+    for (segment.count = 0; segment.count < Segment::kEdges && frame != ancestor; frame = parents_[frame]) {
+      segment.add(frame);
+    }
+    resolve(segment, time);
+    const auto end = segment.poses.begin() + static_cast<std::ptrdiff_t>(segment.count);
+    if (const auto failing = std::find(segment.poses.begin(), end, nullptr); failing != end) {
+      return std::unexpected(segment.children[static_cast<std::size_t>(failing - segment.poses.begin())]);
+    }
+    // From the top down: the first offset is taken as it is, so that a single edge answers with what was inserted.
+    ChainAccumulator top_from_bottom;
+    for (std::size_t i = segment.count; i-- > 0;) {
+      top_from_bottom.append(*segment.poses[i]);
+    }
+    if (first && frame == ancestor && wide == nullptr) {
+      return top_from_bottom.narrow();
+    }
+    wide_top_from_frame = compose(top_from_bottom.widen(), wide_top_from_frame);
+    if (frame == ancestor) {
+      break;
+    }
+  }
+  if (wide != nullptr) {
+    *wide = wide_top_from_frame;
+  }
+  return narrow(wide_top_from_frame);
 }
 
 std::expected<RigidTransform, LookupFailure> TransformTree::lookup(FrameId target, FrameId source,
@@ -157,16 +196,21 @@ std::expected<RigidTransform, LookupFailure> TransformTree::lookup(FrameId targe
     meet = parents_[meet];
     other = parents_[other];
   }
+  const auto noSampleOn = [&](FrameId child) { return std::unexpected(noSample(target, source, child, time)); };
+  if (meet == target) {
+    const auto target_from_source = composeUpTo(meet, source, time, nullptr);
+    return target_from_source ? std::expected<RigidTransform, LookupFailure>(*target_from_source)
+                              : noSampleOn(target_from_source.error());
+  }
   WideTransform meet_from_source;
-  FrameId failing = composeUpTo(meet, source, time, meet_from_source);
+  if (const auto complete = composeUpTo(meet, source, time, &meet_from_source); !complete) {
+    return noSampleOn(complete.error());
+  }
   WideTransform meet_from_target;
-  if (failing == kNoFrame) {
-    failing = composeUpTo(meet, target, time, meet_from_target);
+  if (const auto complete = composeUpTo(meet, target, time, &meet_from_target); !complete) {
+    return noSampleOn(complete.error());
   }
-  if (failing != kNoFrame) {
-    return std::unexpected(noSample(target, source, failing, time));
-  }
-  return narrow(meet == target ? meet_from_source : composeInverse(meet_from_target, meet_from_source));
+  return narrow(composeInverse(meet_from_target, meet_from_source));
 }
 
 void TransformTree::snapshot(FrameId root, TimePoint time, Snapshot& out) const {
@@ -176,6 +220,7 @@ void TransformTree::snapshot(FrameId root, TimePoint time, Snapshot& out) const 
   SnapshotScratch& scratch = out.scratch;
   scratch.done.assign(count, 0);
   scratch.root_from_frame.resize(count);
+  scratch.poses.resize(count);
   out.root_from_frame.resize(count);
   if (!contains(root)) {
     for (FrameId frame = 0; frame < count; ++frame) {
@@ -184,8 +229,9 @@ void TransformTree::snapshot(FrameId root, TimePoint time, Snapshot& out) const 
     }
     return;
   }
+  resolveAll(time, scratch);
   out.root_from_frame[root] = RigidTransform{};
-  scratch.root_from_frame[root] = WideTransform{};
+  scratch.root_from_frame[root] = ChainAccumulator{};
   scratch.done[root] = 1;
   snapshotAncestors(out);
   for (FrameId frame = 0; frame < count; ++frame) {
@@ -200,20 +246,36 @@ void TransformTree::snapshot(FrameId root, TimePoint time, Snapshot& out) const 
   }
 }
 
+void TransformTree::resolveAll(TimePoint time, SnapshotScratch& scratch) const {
+  Segment segment;
+  for (FrameId frame = 0; frame < parents_.size(); ++frame) {
+    if (parents_[frame] != kNoFrame) {
+      segment.add(frame);
+    }
+    if (segment.count == Segment::kEdges || frame + 1 == parents_.size()) {
+      resolve(segment, time);
+      for (std::size_t i = 0; i < segment.count; ++i) {
+        scratch.poses[segment.children[i]] = segment.poses[i];
+      }
+      segment.count = 0;
+    }
+  }
+}
+
 void TransformTree::snapshotAncestors(Snapshot& out) const noexcept {
   SnapshotScratch& scratch = out.scratch;
   FrameId failing = kNoFrame;
-  WideTransform ancestor_from_root;
+  ChainAccumulator root_from_ancestor;
   for (FrameId frame = out.root; parents_[frame] != kNoFrame; frame = parents_[frame]) {
     const FrameId ancestor = parents_[frame];
-    const RigidTransform* ancestor_from_frame = failing == kNoFrame ? poseInForce(frame, out.time) : nullptr;
+    const RigidTransform* ancestor_from_frame = failing == kNoFrame ? scratch.poses[frame] : nullptr;
     if (ancestor_from_frame == nullptr) {
       failing = failing == kNoFrame ? frame : failing;
       out.root_from_frame[ancestor] = std::unexpected(noSample(out.root, ancestor, failing, out.time));
     } else {
-      ancestor_from_root = compose(*ancestor_from_frame, ancestor_from_root);
-      scratch.root_from_frame[ancestor] = composeInverse(ancestor_from_root, WideTransform{});
-      out.root_from_frame[ancestor] = narrow(scratch.root_from_frame[ancestor]);
+      root_from_ancestor.appendInverse(*ancestor_from_frame);
+      scratch.root_from_frame[ancestor] = root_from_ancestor;
+      out.root_from_frame[ancestor] = root_from_ancestor.narrow();
     }
     scratch.done[ancestor] = 1;
   }
@@ -234,15 +296,16 @@ void TransformTree::snapshotFrame(FrameId frame, Snapshot& out) const {
     result.error().source = frame;
     return;
   }
-  const RigidTransform* parent_from_frame = poseInForce(frame, out.time);
+  const RigidTransform* parent_from_frame = scratch.poses[frame];
   if (parent_from_frame == nullptr) {
     result = std::unexpected(noSample(out.root, frame, frame, out.time));
   } else if (!from_parent) {
     result = from_parent;
     result.error().source = frame;
   } else {
-    scratch.root_from_frame[frame] = compose(scratch.root_from_frame[parent], *parent_from_frame);
-    result = narrow(scratch.root_from_frame[frame]);
+    scratch.root_from_frame[frame] = scratch.root_from_frame[parent];
+    scratch.root_from_frame[frame].append(*parent_from_frame);
+    result = scratch.root_from_frame[frame].narrow();
   }
 }
 

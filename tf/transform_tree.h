@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <expected>
 #include <optional>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "tf/frame_names.h"
 #include "tf/time.h"
 #include "tf/transform_buffer.h"
+#include "tf/wide_transform.h"
 
 namespace stillframe::tf {
 
@@ -53,6 +55,15 @@ class TransformTree {
     EdgeCache samples;
     bool is_static = true;  // until a sample of a dynamic topic arrives
   };
+  /// Edges of a chain that are resolved together, so that their cache misses overlap.
+  struct Segment {
+    static constexpr std::size_t kEdges = 64;
+    void add(FrameId child) noexcept { children[count++] = child; }
+
+    std::size_t count = 0;
+    std::array<FrameId, kEdges> children;
+    std::array<const RigidTransform*, kEdges> poses;  // parent_from_child in force, or nullptr
+  };
   struct Climb {
     FrameId root;
     std::size_t steps;
@@ -61,10 +72,11 @@ class TransformTree {
   [[nodiscard]] std::optional<FrameId> knownEdge(std::string_view parent, std::string_view child) const noexcept;
   [[nodiscard]] FrameId internFrame(std::string_view name);
   [[nodiscard]] Climb climb(FrameId frame) const noexcept;
-  [[nodiscard]] const RigidTransform* poseInForce(FrameId child, TimePoint time) const noexcept;
-  [[nodiscard]] FrameId composeUpTo(FrameId ancestor, FrameId frame, TimePoint time,
-                                    WideTransform& ancestor_from_frame) const noexcept;
+  void resolve(Segment& segment, TimePoint time) const noexcept;
+  [[nodiscard]] std::expected<RigidTransform, FrameId> composeUpTo(FrameId ancestor, FrameId frame, TimePoint time,
+                                                                   WideTransform* wide) const noexcept;
   [[nodiscard]] LookupFailure noSample(FrameId target, FrameId source, FrameId child, TimePoint time) const noexcept;
+  void resolveAll(TimePoint time, SnapshotScratch& scratch) const;
   void snapshotAncestors(Snapshot& out) const noexcept;
   void snapshotFrame(FrameId frame, Snapshot& out) const;
 

@@ -22,14 +22,11 @@ WideVector rotated(Wide w, Wide x, Wide y, Wide z, const WideVector& v) noexcept
           v.z + s * (w * cz + (x * cy - y * cx))};
 }
 
-template <typename Left, typename Right>
-void multiplyRotations(const Left& l, const Right& r, WideTransform& out) noexcept {
-  const Wide lw = l.w, lx = l.x, ly = l.y, lz = l.z;
-  const Wide rw = r.w, rx = r.x, ry = r.y, rz = r.z;
-  out.w = (lw * rw - lx * rx) - (ly * ry + lz * rz);
-  out.x = (lw * rx + lx * rw) + (ly * rz - lz * ry);
-  out.y = (lw * ry + ly * rw) + (lz * rx - lx * rz);
-  out.z = (lw * rz + lz * rw) + (lx * ry - ly * rx);
+void multiplyRotations(const WideTransform& l, const WideTransform& r, WideTransform& out) noexcept {
+  out.w = (l.w * r.w - l.x * r.x) - (l.y * r.y + l.z * r.z);
+  out.x = (l.w * r.x + l.x * r.w) + (l.y * r.z - l.z * r.y);
+  out.y = (l.w * r.y + l.y * r.w) + (l.z * r.x - l.x * r.z);
+  out.z = (l.w * r.z + l.z * r.w) + (l.x * r.y - l.y * r.x);
 }
 
 }  // namespace
@@ -47,22 +44,10 @@ RigidTransform narrow(const WideTransform& a) noexcept {
           glm::dvec3(static_cast<double>(a.tx), static_cast<double>(a.ty), static_cast<double>(a.tz))};
 }
 
-WideTransform compose(const RigidTransform& c_from_b, const WideTransform& b_from_a) noexcept {
-  const glm::dquat& q = c_from_b.rotation;
-  const WideVector v = rotated(q.w, q.x, q.y, q.z, {b_from_a.tx, b_from_a.ty, b_from_a.tz});
+WideTransform compose(const WideTransform& c_from_b, const WideTransform& b_from_a) noexcept {
+  const WideVector v = rotated(c_from_b.w, c_from_b.x, c_from_b.y, c_from_b.z, {b_from_a.tx, b_from_a.ty, b_from_a.tz});
   WideTransform out;
-  multiplyRotations(q, b_from_a, out);
-  out.tx = v.x + static_cast<Wide>(c_from_b.translation.x);
-  out.ty = v.y + static_cast<Wide>(c_from_b.translation.y);
-  out.tz = v.z + static_cast<Wide>(c_from_b.translation.z);
-  return out;
-}
-
-WideTransform compose(const WideTransform& c_from_b, const RigidTransform& b_from_a) noexcept {
-  const glm::dvec3& t = b_from_a.translation;
-  const WideVector v = rotated(c_from_b.w, c_from_b.x, c_from_b.y, c_from_b.z, {t.x, t.y, t.z});
-  WideTransform out;
-  multiplyRotations(c_from_b, b_from_a.rotation, out);
+  multiplyRotations(c_from_b, b_from_a, out);
   out.tx = v.x + c_from_b.tx;
   out.ty = v.y + c_from_b.ty;
   out.tz = v.z + c_from_b.tz;

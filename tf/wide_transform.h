@@ -7,17 +7,18 @@
 
 namespace stillframe::tf {
 
-/// Accumulator scalar of every composition. On x86-64 Linux the 80-bit x87 format: 64 bits of mantissa, hardware speed,
+/// Scalar of single compositions. On x86-64 Linux the 80-bit x87 format: 64 bits of mantissa, hardware speed,
 /// no FMA needed and no contraction or -ffast-math to fear; on aarch64 Linux IEEE quad (exact but slow).
 using Wide = long double;
 static_assert(std::numeric_limits<Wide>::digits >= 64, "compositions need more than double's 53 bits");
 static_assert(std::numeric_limits<Wide>::max_exponent > 2 * std::numeric_limits<double>::max_exponent,
               "the square of any double must be representable");
 
-/// A rigid transform under composition, with 11 bits more than double: a chain is rounded once, at its end.
+/// A rigid transform with 11 bits more than double, for where one product must be right to the last bit of its result.
 ///
-/// The quaternion is not kept unit: every use divides by its squared norm, so the rounding of the stored quaternions'
-/// norms neither scales translations nor piles up. About 25 ns a step. A value; no thread rules.
+/// The quaternion is not kept unit: every use divides by its squared norm, so the rounding of a stored quaternion's
+/// norm does not scale translations. About 85 ns a product on x87: for chains use ChainAccumulator. A value; no thread
+/// rules.
 struct WideTransform {
   Wide w = 1, x = 0, y = 0, z = 0;
   Wide tx = 0, ty = 0, tz = 0;
@@ -26,10 +27,8 @@ struct WideTransform {
 [[nodiscard]] WideTransform widen(const RigidTransform& b_from_a) noexcept;
 /// Rounded to double, with a unit quaternion.
 [[nodiscard]] RigidTransform narrow(const WideTransform& b_from_a) noexcept;
-/// c_from_a = c_from_b * b_from_a, for a walk from a leaf up.
-[[nodiscard]] WideTransform compose(const RigidTransform& c_from_b, const WideTransform& b_from_a) noexcept;
-/// c_from_a = c_from_b * b_from_a, for a walk from a root down.
-[[nodiscard]] WideTransform compose(const WideTransform& c_from_b, const RigidTransform& b_from_a) noexcept;
+/// c_from_a = c_from_b * b_from_a.
+[[nodiscard]] WideTransform compose(const WideTransform& c_from_b, const WideTransform& b_from_a) noexcept;
 /// b_from_a = inverse(c_from_b) * c_from_a. Translations are subtracted before they are rotated: two frames close to
 /// each other and far from c lose nothing.
 [[nodiscard]] WideTransform composeInverse(const WideTransform& c_from_b, const WideTransform& c_from_a) noexcept;

@@ -1,0 +1,163 @@
+// Google Benchmark of the TransformBuffer. Each name ends in its target.
+#include <benchmark/benchmark.h>
+
+#include "tools/bench/tf_workloads.h"
+
+namespace stillframe::bench {
+namespace {
+
+using tf::FrameId;
+using tf::Snapshot;
+using tf::TransformBuffer;
+
+void lookupAnyTime(benchmark::State& state, ChainWorkload& chain, const TransformBuffer& buffer) {
+  const FrameId root = *buffer.findFrame(chain.root());
+  const FrameId leaf = *buffer.findFrame(chain.leaf());
+  std::vector<tf::TimePoint> times(1 << 16);
+  for (tf::TimePoint& time : times) {
+    time = chain.randomTime();
+  }
+  std::size_t next = 0;
+  for (auto _ : state) {
+    auto found = buffer.tryLookupTransform(root, leaf, times[next++ % times.size()]);
+    if (!found) {
+      state.SkipWithError("lookup failed");
+      break;
+    }
+    benchmark::DoNotOptimize(found);
+  }
+}
+
+void BM_Lookup16DeepInOneHourOf100Hz(benchmark::State& state) {
+  static ChainWorkload chain(16, 360'000);
+  static const auto buffer = [] {
+    auto loaded = chain.load();
+    chain.forgetSamples();
+    return loaded;
+  }();
+  lookupAnyTime(state, chain, *buffer);
+  state.counters["target_us"] = 2;
+}
+BENCHMARK(BM_Lookup16DeepInOneHourOf100Hz)
+    ->Name("Lookup16DeepInOneHourOf100Hz/target_below_2us")
+    ->Unit(benchmark::kMicrosecond);
+
+void BM_Lookup16DeepShuffledHour(benchmark::State& state) {
+  static ChainWorkload chain(16, 360'000);
+  static const auto buffer = [] {
+    chain.shuffle();
+    auto loaded = chain.load();
+    chain.forgetSamples();
+    return loaded;
+  }();
+  lookupAnyTime(state, chain, *buffer);
+  state.counters["target_us"] = 2;
+}
+BENCHMARK(BM_Lookup16DeepShuffledHour)
+    ->Name("Lookup16DeepInOneHourThatCameShuffled/target_below_2us")
+    ->Unit(benchmark::kMicrosecond);
+
+void BM_Lookup256DeepIn10sOf100Hz(benchmark::State& state) {
+  static ChainWorkload chain(256, 1000);
+  static const auto buffer = chain.load();
+  lookupAnyTime(state, chain, *buffer);
+  state.counters["target_us"] = 20;
+}
+BENCHMARK(BM_Lookup256DeepIn10sOf100Hz)
+    ->Name("Lookup256DeepIn10sOf100Hz/target_below_20us")
+    ->Unit(benchmark::kMicrosecond);
+
+void BM_SnapshotOf1000Frames(benchmark::State& state) {
+  static const auto buffer = makeRandomTree(1000);
+  Snapshot snapshot;
+  std::int64_t tick = 0;
+  for (auto _ : state) {
+    buffer->snapshot(0, {1'700'000'000'000'000'000 + (tick++ % 100) * 10'000'000}, snapshot);
+    benchmark::DoNotOptimize(snapshot.root_from_frame.data());
+  }
+  state.counters["target_us"] = 100;
+}
+BENCHMARK(BM_SnapshotOf1000Frames)->Name("SnapshotOf1000Frames/target_below_100us")->Unit(benchmark::kMicrosecond);
+
+void bulkInsert(benchmark::State& state, const ChainWorkload& chain, double target) {
+  std::size_t bytes = 0;
+  for (auto _ : state) {
+    const auto buffer = chain.load();
+    state.PauseTiming();
+    bytes = buffer->sampleBytes();
+    state.ResumeTiming();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(chain.samples().size()));
+  state.counters["target_items_per_second"] = target;
+  state.counters["bytes_per_sample_target_72"] =
+      static_cast<double>(bytes) / static_cast<double>(chain.samples().size());
+}
+
+void BM_BulkInsertInOrder(benchmark::State& state) {
+  static const ChainWorkload chain(16, 60'000);
+  bulkInsert(state, chain, 5e6);
+}
+BENCHMARK(BM_BulkInsertInOrder)->Name("BulkInsertInOrder/target_above_5M_per_s")->Unit(benchmark::kMillisecond);
+
+void BM_BulkInsertShuffled(benchmark::State& state) {
+  static const auto chain = [] {
+    ChainWorkload workload(16, 60'000);
+    workload.shuffle();
+    return workload;
+  }();
+  bulkInsert(state, chain, 1e6);
+}
+BENCHMARK(BM_BulkInsertShuffled)->Name("BulkInsertShuffled/target_above_1M_per_s")->Unit(benchmark::kMillisecond);
+
+void singleInserts(benchmark::State& state, const ChainWorkload& chain) {
+  for (auto _ : state) {
+    TransformBuffer buffer;
+    for (const tf::TransformSample& sample : chain.samples()) {
+      benchmark::DoNotOptimize(buffer.insert(sample));
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(chain.samples().size()));
+}
+
+void BM_SingleInsertsInOrder(benchmark::State& state) {
+  static const ChainWorkload chain(16, 60'000);
+  singleInserts(state, chain);
+}
+BENCHMARK(BM_SingleInsertsInOrder)->Name("SingleInsertsInOrder")->Unit(benchmark::kMillisecond);
+
+void BM_SingleInsertsShuffled(benchmark::State& state) {
+  static const auto chain = [] {
+    ChainWorkload workload(16, 60'000);
+    workload.shuffle();
+    return workload;
+  }();
+  singleInserts(state, chain);
+}
+BENCHMARK(BM_SingleInsertsShuffled)->Name("SingleInsertsShuffled")->Unit(benchmark::kMillisecond);
+
+void BM_Readers(benchmark::State& state) {
+  static const ChainWorkload chain(16, 6'000);
+  static const auto buffer = chain.load();
+  const auto readers = static_cast<int>(state.range(0));
+  const auto writers = static_cast<int>(state.range(1));
+  double rate = 0.0;
+  for (auto _ : state) {
+    rate = lookupsPerSecond(*buffer, chain, readers, writers, 0.5);
+    state.SetIterationTime(0.5);
+  }
+  state.counters["lookups_per_s"] = rate;
+  state.counters["per_reader"] = rate / readers;
+}
+BENCHMARK(BM_Readers)
+    ->Name("Readers_Writers/target_no_slowdown_by_readers_and_above_a_third_beside_a_writer")
+    ->Args({1, 0})
+    ->Args({2, 0})
+    ->Args({1, 1})
+    ->Args({2, 1})
+    ->Iterations(1)
+    ->UseManualTime();
+
+}  // namespace
+}  // namespace stillframe::bench
+
+BENCHMARK_MAIN();

@@ -66,7 +66,7 @@ class TruthCase(unittest.TestCase):
         encodings = {
             topic["encoding"] for topic in self.truth["topics"].values() if topic["type"].lower().endswith("tfmessage")
         }
-        return self.truth.get("tf", {}) if encodings == {"cdr"} else {}
+        return self.truth.get("tf", {}) if encodings <= {"cdr", "ros1"} else {}
 
     def test_topics(self):
         said = by_name(self.answer["topics"])

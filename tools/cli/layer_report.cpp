@@ -1,0 +1,53 @@
+#include "tools/cli/layer_report.h"
+
+#include <cstdio>
+
+#include "tools/cli/recording_options.h"
+
+namespace stillframe::cli {
+
+Json layersJson(const scenegraph::Scene& scene) {
+  Json layers = Json::array();
+  for (const auto& slot : scene.layers()) {
+    const scenegraph::Layer& layer = *slot->layer;
+    const scenegraph::Status& status = layer.status();
+    Json counts = Json::object();
+    for (const auto& [name, count] : layer.counts()) {
+      counts[name] = count;
+    }
+    layers.push_back(
+        {{"topic", slot->topic},
+         {"type", slot->type->name},
+         {"frame", layer.sourceFrame()},
+         {"visible", layer.isVisible()},
+         {"status",
+          {{"level", scenegraph::toString(status.level)}, {"code", status.code}, {"message", status.message}}},
+         {"counts", std::move(counts)}});
+  }
+  return layers;
+}
+
+Json problemsJson(const scenegraph::Dataset& dataset) {
+  Json problems = Json::array();
+  for (const auto& problem : dataset.problems()) {
+    problems.push_back({{"code", problem.code}, {"message", problem.message}, {"count", problem.count}});
+  }
+  return problems;
+}
+
+void printRemarks(const scenegraph::Scene& scene, const scenegraph::Dataset& dataset) {
+  for (const auto& slot : scene.layers()) {
+    const scenegraph::Status& status = slot->layer->status();
+    if (status.level != scenegraph::StatusLevel::Ok) {
+      std::printf("  %s: %s, %s: %s\n", printable(slot->topic).c_str(),
+                  std::string(scenegraph::toString(status.level)).c_str(), status.code.c_str(),
+                  printable(status.message).c_str());
+    }
+  }
+  for (const auto& problem : dataset.problems()) {
+    std::printf("  problem, %s (%llu x): %s\n", problem.code.c_str(), static_cast<unsigned long long>(problem.count),
+                printable(problem.message).c_str());
+  }
+}
+
+}  // namespace stillframe::cli

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "scenegraph/camera/camera.h"
+#include "scenegraph/executor.h"
+#include "scenegraph/scene.h"
+#include "tools/cli/view_options.h"
+#include "tools/ingest/recording.h"
+
+namespace stillframe::cli {
+
+/// A recording, loaded, and the scene of one instant of it, complete: background work runs inside.
+class SceneSession {
+ public:
+  /// Refuses a time outside the recording, an unknown frame, topic or setting; each error names what there is.
+  [[nodiscard]] static Result<std::unique_ptr<SceneSession>> make(const ViewOptions& options);
+
+  [[nodiscard]] scenegraph::Scene& scene() noexcept { return *scene_; }
+  [[nodiscard]] tf::TimePoint time() const noexcept { return time_; }
+  /// Goes to another instant, which need not lie within the recording.
+  void showTime(tf::TimePoint time);
+  /// From the eye that was asked for, else one that sees all of it from above at an angle.
+  [[nodiscard]] scenegraph::CameraView camera() const;
+
+ private:
+  explicit SceneSession(ViewOptions options) : options_(std::move(options)) {}
+  Result<void> chooseTime();
+  Result<void> addLayers();
+  Result<void> chooseFrame();
+  void updateFully();
+
+  ViewOptions options_;
+  std::unique_ptr<ingest::Recording> recording_;
+  std::unique_ptr<scenegraph::Executor> executor_;
+  std::unique_ptr<scenegraph::Scene> scene_;
+  tf::TimePoint time_;
+};
+
+/// Applies `settings` to the layer of `slot`; `visible` is understood for every layer.
+[[nodiscard]] Result<void> applyLayerSettings(scenegraph::LayerSlot& slot, scenegraph::SettingTexts settings);
+
+}  // namespace stillframe::cli

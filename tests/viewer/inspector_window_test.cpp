@@ -1,0 +1,187 @@
+#include "viewer/inspector_window.h"
+
+#include <gtest/gtest.h>
+
+#include <QDragEnterEvent>
+#include <QDropEvent>
+#include <QMimeData>
+#include <QTest>
+#include <QUrl>
+
+#include "tests/viewer/viewer_support.h"
+#include "viewer/frame_picker.h"
+#include "viewer/frame_tree.h"
+#include "viewer/message_bar.h"
+#include "viewer/scene_widget.h"
+#include "viewer/time_bar.h"
+
+namespace stillframe::viewer {
+namespace {
+
+using namespace tf::literals;
+using test::settle;
+using test::waitFor;
+using tf::TimePoint;
+
+class InspectorWindowTest : public testing::Test {
+ protected:
+  void open(InspectorOptions options) {
+    window_ = std::make_unique<InspectorWindow>(test::fakeOpener(), std::move(options));
+    window_->show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+  }
+  void openAndLoad(InspectorOptions options) {
+    open(std::move(options));
+    ASSERT_TRUE(waitFor([&] { return window_->isComplete(); }));
+    settle();
+  }
+  void TearDown() override {
+    for (ViewPanel* panel : window_->views()) {
+      EXPECT_EQ(panel->view().glMessages(), 0U);
+    }
+  }
+  SceneWidget& view(std::size_t index) { return window_->views().at(index)->view(); }
+
+  std::unique_ptr<InspectorWindow> window_;
+};
+
+TEST_F(InspectorWindowTest, OpensARecordingAndShowsItFromItsStart) {
+  openAndLoad({.files = {"robot.mcap"}});
+  EXPECT_EQ(window_->timeBar().range(), (TimeRange{TimePoint{0}, TimePoint{10_s}}));
+  EXPECT_EQ(window_->timeBar().time(), TimePoint{0});
+  EXPECT_EQ(window_->windowTitle(), QStringLiteral("test - Stillframe"));
+  EXPECT_EQ(window_->views().at(0)->framePicker().currentText(), QStringLiteral("auto (map)"));
+  EXPECT_NE(window_->frameTree().item("lidar"), nullptr);
+  EXPECT_GT(test::drawnPixels(view(0).grabFramebuffer()), 500);
+}
+
+TEST_F(InspectorWindowTest, StartsAtTheTimeAndFrameAskedFor) {
+  openAndLoad({.files = {"robot.mcap"}, .time = "+2.5", .fixed_frame = "base_link", .views = 2});
+  EXPECT_EQ(window_->timeBar().time(), TimePoint{2_s + 500_ms});
+  ASSERT_EQ(window_->views().size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(view(i).scene()->fixedFrame(), "base_link");
+    EXPECT_EQ(view(i).scene()->time(), TimePoint{2_s + 500_ms});
+  }
+}
+
+TEST_F(InspectorWindowTest, OnlyTheNamedLayersAreThere) {
+  openAndLoad({.files = {"robot.mcap"}, .layers = {.layers = {{"/points", {}}}, .only = true}});
+  ASSERT_EQ(view(0).scene()->layers().size(), 1U);
+  EXPECT_EQ(view(0).scene()->layers().front()->topic, "/points");
+}
+
+TEST_F(InspectorWindowTest, SliderMovesEveryView) {
+  openAndLoad({.files = {"robot.mcap"}, .views = 2});
+  window_->timeBar().slider().setValue(TimeBar::kSteps / 2);
+  settle();
+  EXPECT_EQ(view(0).scene()->time(), TimePoint{5_s});
+  EXPECT_EQ(view(1).scene()->time(), TimePoint{5_s});
+}
+
+TEST_F(InspectorWindowTest, IdleDrawsNothing) {
+  openAndLoad({.files = {"robot.mcap"}, .views = 2});
+  const auto frames = view(0).framesDrawn() + view(1).framesDrawn();
+  settle();
+  EXPECT_EQ(view(0).framesDrawn() + view(1).framesDrawn(), frames);
+}
+
+TEST_F(InspectorWindowTest, BadFileSaysSoAndThePreviousRecordingStays) {
+  openAndLoad({.files = {"robot.mcap"}});
+  const auto dataset = window_->dataset();
+  window_->openFiles({"bad.mcap"});
+  ASSERT_TRUE(waitFor([&] { return !window_->messageBar().text().isEmpty(); }));
+  EXPECT_EQ(window_->messageBar().text(), QStringLiteral("bad.mcap is no MCAP recording"));
+  EXPECT_EQ(window_->dataset(), dataset);
+  EXPECT_TRUE(window_->isComplete());
+}
+
+TEST_F(InspectorWindowTest, BadFileAtStartLeavesAnEmptyWindowThatStillWorks) {
+  open({.files = {"bad.mcap"}});
+  ASSERT_TRUE(waitFor([&] { return !window_->messageBar().text().isEmpty(); }));
+  window_->openFiles({"robot.mcap"});
+  ASSERT_TRUE(waitFor([&] { return window_->isComplete(); }));
+  EXPECT_EQ(window_->messageBar().text(), QString());
+}
+
+TEST_F(InspectorWindowTest, DroppedFileIsOpened) {
+  open({});
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(QStringLiteral("/tmp/robot.mcap"))});
+  QDragEnterEvent enter({10, 10}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(window_.get(), &enter);
+  EXPECT_TRUE(enter.isAccepted());
+  QDropEvent drop({10, 10}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(window_.get(), &drop);
+  ASSERT_TRUE(waitFor([&] { return window_->isComplete(); }));
+}
+
+TEST_F(InspectorWindowTest, OpeningTheNextRecordingReplacesTheFirst) {
+  openAndLoad({.files = {"robot.mcap"}});
+  const auto first = window_->dataset();
+  window_->timeBar().setTime(TimePoint{5_s});
+  window_->openFiles({"robot.mcap"});
+  ASSERT_TRUE(waitFor([&] { return window_->dataset() != first && window_->isComplete(); }));
+  settle();
+  EXPECT_EQ(window_->timeBar().time(), TimePoint{0});
+  EXPECT_GT(test::drawnPixels(view(0).grabFramebuffer()), 500);
+}
+
+TEST_F(InspectorWindowTest, SplitViewTakesOverTheStateAndGoesItsOwnWay) {
+  openAndLoad({.files = {"robot.mcap"}});
+  ASSERT_NE(view(0).scene()->findLayer("/points"), nullptr);
+  view(0).setFixedFrame("odom");
+  auto state = view(0).camera().state();
+  state.radius_m = 3.25;
+  view(0).setCameraState(state);
+  view(0).scene()->findLayer("/points")->layer->setVisible(false);
+  ViewPanel& copy = window_->addView(window_->views().front(), Qt::Vertical);
+  settle();
+  EXPECT_EQ(copy.view().scene()->fixedFrame(), "odom");
+  EXPECT_DOUBLE_EQ(copy.view().camera().state().radius_m, 3.25);
+  EXPECT_FALSE(copy.view().scene()->findLayer("/points")->layer->isVisible());
+  copy.view().setFixedFrame("base_link");
+  EXPECT_EQ(view(0).scene()->fixedFrame(), "odom");
+  EXPECT_TRUE(waitFor([&] { return copy.view().framesDrawn() > 0; }));
+  EXPECT_GT(test::drawnPixels(view(0).grabFramebuffer()), 500) << "it has been moved into another splitter";
+  window_->closeView(copy);
+  settle();
+  EXPECT_EQ(window_->views().size(), 1U);
+  window_->closeView(*window_->views().front());
+  EXPECT_EQ(window_->views().size(), 1U) << "the last view stays";
+}
+
+TEST_F(InspectorWindowTest, ClickingAFrameLooksAtIt) {
+  openAndLoad({.files = {"robot.mcap"}, .time = "+4"});
+  Q_EMIT window_->frameTree().framePicked(QStringLiteral("base_link"));
+  EXPECT_DOUBLE_EQ(view(0).camera().state().focal_point.x, 4.0);
+}
+
+TEST_F(InspectorWindowTest, SpaceAndArrowsDriveTheTimeBar) {
+  openAndLoad({.files = {"robot.mcap"}});
+  window_->activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
+  view(0).setFocus();
+  QTest::keyClick(&view(0), Qt::Key_Right);
+  EXPECT_EQ(window_->timeBar().time(), TimePoint{1_s});
+  QTest::keyClick(&view(0), Qt::Key_Left);
+  EXPECT_EQ(window_->timeBar().time(), TimePoint{0});
+  QTest::keyClick(&view(0), Qt::Key_Space);
+  EXPECT_TRUE(window_->timeBar().isPlaying());
+  QTest::keyClick(&view(0), Qt::Key_Space);
+  EXPECT_FALSE(window_->timeBar().isPlaying());
+}
+
+TEST_F(InspectorWindowTest, MovedCameraIsNotTakenAwayWhenLoadingEnds) {
+  open({.files = {"robot.mcap"}});
+  ASSERT_TRUE(waitFor([&] { return window_->dataset() != nullptr; }));
+  auto state = view(0).camera().state();
+  state.radius_m = 77.0;
+  view(0).setCameraState(state);
+  ASSERT_TRUE(waitFor([&] { return window_->isComplete(); }));
+  settle();
+  EXPECT_DOUBLE_EQ(view(0).camera().state().radius_m, 77.0);
+}
+
+}  // namespace
+}  // namespace stillframe::viewer

@@ -1,0 +1,74 @@
+#include "tests/viewer/viewer_support.h"
+
+#include <QCoreApplication>
+#include <QTest>
+#include <cstdlib>
+
+namespace stillframe::test {
+
+using scenegraph::FieldType;
+using scenegraph::ObjectType;
+
+bool waitFor(const std::function<bool()>& condition) { return QTest::qWaitFor(condition, 10'000); }
+
+void settle() {
+  for (int i = 0; i < 20; ++i) {
+    QCoreApplication::sendPostedEvents();
+    QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
+  }
+}
+
+std::shared_ptr<scenegraph::Dataset> makeRobotDataset() {
+  DatasetBuilder builder;
+  builder.topic("/tf", ObjectType::FrameTransforms);
+  for (std::int64_t second = 0; second <= 10; ++second) {
+    builder.transform(second * 1_s, "map", "odom");
+    builder.transform(second * 1_s, "odom", "base_link", translate(static_cast<double>(second), 0.0, 0.0));
+    builder.transform(second * 1_s, "base_link", "lidar", translate(0.0, 0.0, 1.0));
+  }
+  builder.topic("/points", ObjectType::PointCloud);
+  for (const std::int64_t second : {1, 2}) {
+    CloudBuilder cloud("lidar");
+    cloud.xyz();
+    for (int i = 0; i < 41 * 41; ++i) {
+      cloud.point({i % 41 * 0.05 - 1.0, i / 41 * 0.05 - 1.0, 0.0});
+    }
+    builder.at(second * 1_s, cloud.stamp(second * 1_s).build());
+  }
+  return builder.build();
+}
+
+viewer::RecordingOpener fakeOpener() {
+  return [](const std::vector<std::filesystem::path>& files)
+             -> std::expected<viewer::OpenedRecording, scenegraph::Status> {
+    if (files.at(0).filename() == "bad.mcap") {
+      return std::unexpected(
+          scenegraph::Status{scenegraph::StatusLevel::Error, "NotMcap", "bad.mcap is no MCAP recording"});
+    }
+    return viewer::OpenedRecording{makeRobotDataset(), [](const std::function<bool(double)>& progress) {
+                                     for (int i = 0; i <= 10; ++i) {
+                                       if (!progress(i / 10.0)) {
+                                         return;
+                                       }
+                                     }
+                                   }};
+  };
+}
+
+int drawnPixels(const QImage& image) {
+  const QRgb first = image.pixel(0, 0);
+  int count = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const QRgb pixel = image.pixel(x, y);
+      count += std::abs(qRed(pixel) - qRed(first)) + std::abs(qGreen(pixel) - qGreen(first)) +
+                           std::abs(qBlue(pixel) - qBlue(first)) >
+                       12
+                   ? 1
+                   : 0;
+    }
+  }
+  return count;
+}
+
+}  // namespace stillframe::test

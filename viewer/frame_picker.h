@@ -1,0 +1,38 @@
+#pragma once
+
+#include <QComboBox>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stillframe::viewer {
+
+/// Fixed-frame picker: "auto (map)" first, then every frame ever seen, with search; a name that does not exist (yet)
+/// may be typed and is shown as missing. GUI thread.
+class FramePicker : public QComboBox {
+  Q_OBJECT
+
+ public:
+  explicit FramePicker(QWidget* parent = nullptr);
+
+  /// All frames in order of first appearance. Cheap when the count is the one already shown.
+  void setFrames(const std::vector<std::string>& frames);
+  /// What the view uses now: the frame chosen by hand, if any, and the frame automatic choice gives.
+  void setCurrent(const std::optional<std::string>& chosen, const std::string& automatic);
+  [[nodiscard]] bool isMissing() const noexcept { return is_missing_; }
+  [[nodiscard]] int frameCount() const { return count() - 1; }
+
+ Q_SIGNALS:
+  /// The user chose a frame by hand, or automatic choice (nullopt).
+  void picked(const std::optional<std::string>& frame);
+
+ private:
+  void pickText();
+  void showCurrent();
+
+  std::optional<std::string> chosen_;
+  std::string automatic_;
+  bool is_missing_ = false;
+};
+
+}  // namespace stillframe::viewer

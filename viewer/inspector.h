@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/dataset_loader.h"
+#include "viewer/layer_choices.h"
+
+namespace stillframe::viewer {
+
+/// How an inspector starts.
+struct InspectorOptions {
+  std::vector<std::filesystem::path> files = {};  ///< opened at once; none: an empty window that waits for a drop
+  std::optional<std::string> time = {};           ///< integer ns, "+SECONDS", "start" or "end"; absent: start
+  std::optional<std::string> fixed_frame = {};    ///< absent: chosen automatically
+  LayerChoices layers = {};
+  int views = 1;
+  int width = 1280;  ///< of the window
+  int height = 800;
+  std::optional<std::filesystem::path> screenshot = {};  ///< save a picture of the complete window there, then quit
+};
+
+/// Runs `stillframe view`: makes the application (whose arguments are argc and argv) and a window, until it is closed.
+/// Returns the exit code.
+int runInspector(int argc, char** argv, const InspectorOptions& options, const RecordingOpener& opener);
+
+}  // namespace stillframe::viewer

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <QOpenGLWidget>
+#include <QString>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "scenegraph/camera/orbit_camera.h"
+#include "scenegraph/pipeline/gl_debug.h"
+#include "scenegraph/pipeline/view_pipeline.h"
+#include "scenegraph/scene.h"
+#include "viewer/orbit_gestures.h"
+#include "viewer/update_gate.h"
+
+class QLabel;
+
+namespace stillframe::viewer {
+
+/// The 3D view: one Scene, one orbit camera, one pipeline in the widget's own context. GUI thread.
+///
+/// Draws on demand only: a tick, a camera, a setting or a finished background job asks for it, several requests make
+/// one update from the event loop, and an update that changes nothing draws nothing. Survives losing its context
+/// (moving to another window, hiding) and frees what it holds in it. What cannot be drawn is said over the view.
+class SceneWidget : public QOpenGLWidget {
+  Q_OBJECT
+
+ public:
+  explicit SceneWidget(QWidget* parent = nullptr);
+  ~SceneWidget() override;
+
+  /// Shows `dataset` from now on, with no layers yet. `executor` must outlive the widget. nullptr shows nothing.
+  void setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegraph::Executor& executor);
+  /// nullptr before the first dataset. Call requestTick() after changing its layers.
+  [[nodiscard]] scenegraph::Scene* scene() noexcept { return scene_.get(); }
+
+  void setTime(tf::TimePoint time);
+  [[nodiscard]] tf::TimePoint time() const noexcept { return time_; }
+  /// Changes the fixed frame and carries the camera over, so that it goes on looking at the same place.
+  void setFixedFrame(const std::optional<std::string>& frame);
+  /// The scene may have changed: poses frames and updates layers soon. Any thread.
+  void requestTick() { gate_.request(); }
+  /// Does now what is requested. Returns whether a repaint follows.
+  bool applyTick();
+
+  [[nodiscard]] const scenegraph::OrbitCamera& camera() const noexcept { return camera_; }
+  void setCameraState(const scenegraph::OrbitCamera::State& state);
+  /// Whether a gesture or setCameraState() has moved the camera since home().
+  [[nodiscard]] bool isCameraTouched() const noexcept { return is_camera_touched_; }
+  void setBackground(const scenegraph::Color& background);
+
+  /// Frames drawn since the widget was made.
+  [[nodiscard]] std::uint64_t framesDrawn() const noexcept { return frames_drawn_; }
+  /// OpenGL debug messages so far, over all contexts.
+  [[nodiscard]] std::size_t glMessages() const noexcept { return gl_messages_ + debug_log_.count(); }
+  /// What is shown instead of the scene, "" when the scene is shown.
+  [[nodiscard]] QString problem() const;
+
+ public Q_SLOTS:
+  /// The default direction, all data in sight; again when data arrives, until the camera is moved by hand.
+  void home();
+  /// All data in sight from the present direction.
+  void frameAll();
+  /// The origin of `frame` becomes the focal point. Does nothing when it has no place at this time.
+  void frameOrigin(const std::string& frame);
+
+ Q_SIGNALS:
+  /// Layers have been updated: statuses, counts and choices may be new.
+  void sceneUpdated();
+  void cameraChanged();
+  /// Name of the frame whose origin is near the cursor, "" when none is.
+  void frameHovered(const QString& frame);
+
+ protected:
+  void initializeGL() override;
+  void paintGL() override;
+  void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+
+ private:
+  void releaseGl();
+  void dropPipeline();
+  void frameIfWanted();
+  void onCameraMoved();
+  void hover(QPointF position);
+  void showProblem(const QString& text);
+  [[nodiscard]] double aspect() const;
+
+  UpdateGate gate_;
+  scenegraph::GlDebugLog debug_log_;
+  std::size_t gl_messages_ = 0;      // of contexts that are gone
+  std::size_t logged_messages_ = 0;  // of debug_log_ that went to glLog
+  std::unique_ptr<scenegraph::Scene> scene_;
+  std::unique_ptr<scenegraph::ViewPipeline> pipeline_;
+  scenegraph::OrbitCamera camera_;
+  OrbitGestures gestures_;
+  scenegraph::Color background_{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
+  tf::TimePoint time_;
+  bool wants_framing_ = true;
+  bool is_camera_touched_ = false;
+  bool is_context_usable_ = false;
+  std::uint64_t frames_drawn_ = 0;
+  QMetaObject::Connection context_watch_;
+  QLabel* message_ = nullptr;
+  QLabel* hover_label_ = nullptr;
+  QString hovered_frame_;
+};
+
+}  // namespace stillframe::viewer

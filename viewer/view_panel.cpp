@@ -1,0 +1,201 @@
+#include "viewer/view_panel.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSplitter>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "viewer/frame_picker.h"
+#include "viewer/icons.h"
+#include "viewer/layer_panel.h"
+#include "viewer/scene_widget.h"
+
+namespace stillframe::viewer {
+namespace {
+
+constexpr int kLayerPanelWidth = 300;
+
+}  // namespace
+
+ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+
+  auto* bar = new QWidget(this);
+  auto* bar_layout = new QHBoxLayout(bar);
+  bar_layout->setContentsMargins(4, 2, 4, 2);
+  bar_layout->setSpacing(2);
+  layers_button_ = addButton(*bar, QStringLiteral("layers"), transportIcon(TransportIcon::Layers), tr("Layers"));
+  layers_button_->setCheckable(true);
+  layers_button_->setChecked(true);
+  auto* label = new QLabel(tr("Fixed frame"), bar);
+  bar_layout->addSpacing(4);
+  bar_layout->addWidget(label);
+  picker_ = new FramePicker(bar);
+  picker_->setObjectName(QStringLiteral("fixedFrame"));
+  bar_layout->addWidget(picker_);
+  bar_layout->addStretch(1);
+  auto* recenter = addButton(*bar, QStringLiteral("recenter"), transportIcon(TransportIcon::Recenter),
+                             tr("Look at everything (Home)"));
+  auto* split_right = addButton(*bar, QStringLiteral("splitRight"), transportIcon(TransportIcon::SplitRight),
+                                tr("Duplicate this view to the right"));
+  auto* split_below = addButton(*bar, QStringLiteral("splitBelow"), transportIcon(TransportIcon::SplitBelow),
+                                tr("Duplicate this view below"));
+  auto* close = addButton(*bar, QStringLiteral("close"), transportIcon(TransportIcon::Close), tr("Close this view"));
+  layout->addWidget(bar);
+
+  splitter_ = new QSplitter(Qt::Horizontal, this);
+  splitter_->setChildrenCollapsible(true);
+  layers_ = new LayerPanel(splitter_);
+  layers_->setObjectName(QStringLiteral("layerPanel"));
+  view_ = new SceneWidget(splitter_);
+  splitter_->setStretchFactor(0, 0);
+  splitter_->setStretchFactor(1, 1);
+  splitter_->setSizes({kLayerPanelWidth, 3 * kLayerPanelWidth});
+  layout->addWidget(splitter_, 1);
+
+  connect(layers_button_, &QToolButton::toggled, layers_, &QWidget::setVisible);
+  connect(recenter, &QToolButton::clicked, view_, &SceneWidget::home);
+  connect(split_right, &QToolButton::clicked, this, [this] { Q_EMIT splitRequested(Qt::Horizontal); });
+  connect(split_below, &QToolButton::clicked, this, [this] { Q_EMIT splitRequested(Qt::Vertical); });
+  connect(close, &QToolButton::clicked, this, &ViewPanel::closeRequested);
+  connect(picker_, &FramePicker::picked, this, [this](const std::optional<std::string>& frame) {
+    view_->setFixedFrame(frame);
+    refreshFrames();
+    view_->setFocus();
+  });
+  connect(layers_, &LayerPanel::changed, view_, [this] { view_->requestTick(); });
+  connect(layers_, &LayerPanel::refused, this, &ViewPanel::refused);
+  connect(view_, &SceneWidget::sceneUpdated, this, [this] {
+    layers_->refresh();
+    refreshFrames();
+  });
+}
+
+ViewPanel::~ViewPanel() {
+  layers_->setScene(nullptr);  // before the view takes its scene along
+}
+
+QToolButton* ViewPanel::addButton(QWidget& bar, const QString& name, const QIcon& icon, const QString& tip) {
+  auto* button = new QToolButton(&bar);
+  button->setObjectName(name);
+  button->setIcon(icon);
+  button->setToolTip(tip);
+  button->setAutoRaise(true);
+  button->setFocusPolicy(Qt::NoFocus);
+  bar.layout()->addWidget(button);
+  return button;
+}
+
+void ViewPanel::setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegraph::Executor& executor,
+                           const LayerChoices& choices) {
+  layers_->setScene(nullptr);
+  view_->setDataset(std::move(dataset), executor);
+  choices_ = choices;
+  is_choice_applied_.assign(choices_.layers.size(), false);
+  addWantedLayers();
+  layers_->setScene(view_->scene());
+  refreshFrames();
+}
+
+void ViewPanel::addWantedLayers() {
+  scenegraph::Scene* scene = view_->scene();
+  if (scene == nullptr) {
+    return;
+  }
+  if (!choices_.only) {
+    scene->addDefaultLayers();
+  }
+  for (std::size_t i = 0; i < choices_.layers.size(); ++i) {
+    const LayerChoice& choice = choices_.layers[i];
+    if (is_choice_applied_[i]) {
+      continue;
+    }
+    scenegraph::LayerSlot* slot = scene->findLayer(choice.topic);
+    if (slot == nullptr) {
+      const auto added = scene->addLayer(choice.topic);
+      if (!added) {
+        continue;  // the topic may come while the file loads
+      }
+      slot = *added;
+    }
+    is_choice_applied_[i] = true;
+    if (const auto applied = slot->layer->applySettings(choice.settings); !applied) {
+      Q_EMIT refused(QString::fromStdString(choice.topic + ": " + applied.error().message));
+    }
+  }
+}
+
+void ViewPanel::takeGrowth() {
+  addWantedLayers();
+  layers_->refresh();
+  refreshFrames();
+  view_->requestTick();
+}
+
+void ViewPanel::homeUnlessTouched() {
+  if (!view_->isCameraTouched()) {
+    view_->home();
+  }
+}
+
+void ViewPanel::refreshFrames() {
+  scenegraph::Scene* scene = view_->scene();
+  if (scene == nullptr) {
+    return;
+  }
+  const tf::TransformBuffer& buffer = *scene->dataset().transforms();
+  if (buffer.frameCount() != static_cast<std::size_t>(picker_->frameCount())) {
+    picker_->setFrames(buffer.frames());
+  }
+  picker_->setCurrent(scene->isFixedFrameExplicit() ? std::optional(scene->fixedFrame()) : std::nullopt,
+                      scenegraph::automaticFixedFrame(buffer));
+}
+
+ViewState ViewPanel::state() const {
+  ViewState state;
+  state.shows_layers = layers_button_->isChecked();
+  scenegraph::Scene* scene = view_->scene();
+  if (scene == nullptr) {
+    return state;
+  }
+  if (scene->isFixedFrameExplicit()) {
+    state.fixed_frame = scene->fixedFrame();
+  }
+  if (view_->isCameraTouched()) {
+    state.camera = view_->camera().state();
+  }
+  for (const auto& slot : scene->layers()) {
+    state.layers[slot->topic] = {slot->layer->isVisible(), slot->layer->settings()};
+  }
+  return state;
+}
+
+void ViewPanel::setState(const ViewState& state) {
+  layers_button_->setChecked(state.shows_layers);
+  scenegraph::Scene* scene = view_->scene();
+  if (scene == nullptr) {
+    return;
+  }
+  scene->setFixedFrame(state.fixed_frame);
+  for (const auto& [topic, layer] : state.layers) {
+    scenegraph::LayerSlot* slot = scene->findLayer(topic);
+    if (slot == nullptr) {
+      continue;
+    }
+    slot->layer->setVisible(layer.is_visible);
+    if (const auto applied = slot->layer->applySettings(layer.settings); !applied) {
+      Q_EMIT refused(QString::fromStdString(topic + ": " + applied.error().message));
+    }
+  }
+  if (state.camera) {
+    view_->setCameraState(*state.camera);
+  }
+  layers_->refresh();
+  refreshFrames();
+  view_->requestTick();
+}
+
+}  // namespace stillframe::viewer

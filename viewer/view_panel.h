@@ -1,0 +1,78 @@
+#pragma once
+
+#include <QWidget>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenegraph/camera/orbit_camera.h"
+#include "scenegraph/scene.h"
+#include "viewer/layer_choices.h"
+
+class QSplitter;
+class QToolButton;
+
+namespace stillframe::viewer {
+
+class FramePicker;
+class LayerPanel;
+class SceneWidget;
+
+/// All that makes a view what it is, in plain values: what a copy of it takes over.
+struct ViewState {
+  struct LayerState {
+    bool is_visible = true;
+    scenegraph::SettingTexts settings;
+  };
+  std::optional<std::string> fixed_frame;
+  std::optional<scenegraph::OrbitCamera::State> camera;  ///< absent: the default view
+  std::map<std::string, LayerState> layers;              ///< by topic
+  bool shows_layers = true;
+};
+
+/// A view: SceneWidget, tool bar and layer panel. Each has a Scene of its own: fixed frame, layers, settings, camera.
+/// GUI thread.
+class ViewPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ViewPanel(QWidget* parent = nullptr);
+  ~ViewPanel() override;
+
+  /// Shows `dataset` with the layers of `choices`, in the state of a fresh view. `executor` must outlive the panel.
+  void setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegraph::Executor& executor,
+                  const LayerChoices& choices);
+  /// The dataset has more topics, frames or messages.
+  void takeGrowth();
+  /// Looks at all data again, unless the camera was moved by hand.
+  void homeUnlessTouched();
+
+  [[nodiscard]] ViewState state() const;
+  void setState(const ViewState& state);
+
+  [[nodiscard]] SceneWidget& view() noexcept { return *view_; }
+  [[nodiscard]] FramePicker& framePicker() noexcept { return *picker_; }
+  [[nodiscard]] LayerPanel& layerPanel() noexcept { return *layers_; }
+
+ Q_SIGNALS:
+  void splitRequested(Qt::Orientation orientation);
+  void closeRequested();
+  void refused(const QString& message);
+
+ private:
+  QToolButton* addButton(QWidget& bar, const QString& name, const QIcon& icon, const QString& tip);
+  void addWantedLayers();
+  void refreshFrames();
+
+  SceneWidget* view_ = nullptr;
+  FramePicker* picker_ = nullptr;
+  LayerPanel* layers_ = nullptr;
+  QSplitter* splitter_ = nullptr;
+  QToolButton* layers_button_ = nullptr;
+  LayerChoices choices_;
+  std::vector<bool> is_choice_applied_;
+};
+
+}  // namespace stillframe::viewer

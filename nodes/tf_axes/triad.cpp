@@ -67,7 +67,7 @@ void addArm(Mesh& mesh, unsigned axis, double length, double radius, const osg::
 
 osg::ref_ptr<osg::Geometry> makeTriad(double length_m) {
   Mesh mesh;
-  const double radius = length_m / 40.0;
+  const double radius = length_m / 24.0;
   addArm(mesh, 0, length_m, radius, {235, 52, 52, 255});
   addArm(mesh, 1, length_m, radius, {52, 200, 68, 255});
   addArm(mesh, 2, length_m, radius, {64, 110, 255, 255});

@@ -6,5 +6,5 @@ in vec4 v_color;
 
 void main() {
   float facing = abs(normalize(v_normal_in_eye).z);
-  gl_FragColor = sfOutput(vec4(v_color.rgb * (0.6 + 0.4 * facing), v_color.a));
+  gl_FragColor = sfOutput(vec4(v_color.rgb * (0.7 + 0.3 * facing), v_color.a));
 }

@@ -5,7 +5,7 @@
 
 namespace stillframe::nodes {
 
-/// Three arms from the origin along +x, +y and +z in red, green and blue: `length_m` long, a twentieth of it thick.
+/// Three arms from the origin along +x, +y and +z in red, green and blue: `length_m` long, a twelfth of it thick.
 /// One is enough for any number of frames.
 [[nodiscard]] osg::ref_ptr<osg::Geometry> makeTriad(double length_m);
 

@@ -1,0 +1,416 @@
+#include <gmock/gmock.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <osg/Geometry>
+
+#include "nodes/points/colormap.h"
+#include "tests/nodes/scene_picture.h"
+
+namespace stillframe::test {
+namespace {
+
+using scenegraph::FieldType;
+using scenegraph::ObjectType;
+using scenegraph::PointCloud;
+using testing::HasSubstr;
+
+Bytes3 colorAt(const char* colormap, double t) {
+  const nodes::Rgb color = nodes::findColormap(colormap)->at(t);
+  return {static_cast<int>(std::lround(color[0] * 255.0F)), static_cast<int>(std::lround(color[1] * 255.0F)),
+          static_cast<int>(std::lround(color[2] * 255.0F))};
+}
+
+void expectNear(const Bytes3& actual, const Bytes3& expected, int tolerance = 3) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(actual[i], expected[i], tolerance)
+        << testing::PrintToString(actual) << " instead of " << testing::PrintToString(expected);
+  }
+}
+
+/// Points at x = -8, 0, 8 with z and intensity as given.
+PointCloud threePoints(std::array<double, 3> z, std::array<double, 3> intensity) {
+  CloudBuilder builder("lidar");
+  builder.xyz().field("intensity", FieldType::Float32);
+  for (std::size_t i = 0; i < 3; ++i) {
+    builder.point({-8.0 + 8.0 * static_cast<double>(i), 0.0, z[i], intensity[i]});
+  }
+  return builder.build();
+}
+
+std::shared_ptr<scenegraph::Dataset> datasetOf(PointCloud cloud, const tf::RigidTransform& map_from_lidar = {}) {
+  return DatasetBuilder()
+      .topic("/tf", ObjectType::FrameTransforms)
+      .transform(0, "map", "lidar", map_from_lidar)
+      .topic("/points", ObjectType::PointCloud)
+      .at(1_s, std::move(cloud))
+      .build();
+}
+
+const scenegraph::SettingTexts kBig = {{"point_size", "9"}};
+
+scenegraph::SettingTexts with(scenegraph::SettingTexts settings, const scenegraph::SettingTexts& more) {
+  settings.insert(more.begin(), more.end());
+  return settings;
+}
+
+class CloudPicture : public ScenePictureTest {
+ protected:
+  /// Colours of the three points.
+  std::array<Bytes3, 3> drawThree(std::int64_t time_ns = 1_s) {
+    const auto picture = draw(time_ns, fromAbove());
+    return {pixel(picture, 20, 100), pixel(picture, 100, 100), pixel(picture, 180, 100)};
+  }
+};
+
+TEST_F(CloudPicture, ColoursByIntensityOverItsRangeByDefault) {
+  open(datasetOf(threePoints({0, 0, 0}, {10, 20, 30})), "map");
+  const auto& layer = add("/points", kBig);
+  const auto colors = drawThree();
+  expectNear(colors[0], colorAt("turbo", 0.0));
+  expectNear(colors[1], colorAt("turbo", 0.5));
+  expectNear(colors[2], colorAt("turbo", 1.0));
+  EXPECT_EQ(layer.status(), scenegraph::Status{});
+  EXPECT_EQ(layer.counts(), (scenegraph::LayerCounts{{"points", 3}, {"dropped", 0}, {"bytes", 48}}));
+}
+
+TEST_F(CloudPicture, SizesPointsInPixelsAndDrawsDiscsRound) {
+  open(datasetOf(CloudBuilder("lidar").xyz().point({0, 0, 0}).build()), "map");
+  auto& layer = add("/points", {{"point_size", "20"}, {"color_field", "flat"}});
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 400);
+  ASSERT_TRUE(layer.applySettings({{"round_points", "true"}}));
+  EXPECT_NEAR(drawnPixels(draw(1_s, fromAbove())), 314, 12);
+  ASSERT_TRUE(layer.applySettings({{"round_points", "false"}, {"size_unit", "m"}, {"point_size", "3"}}));
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 900) << "3 m at 10 pixels per metre";
+}
+
+TEST_F(CloudPicture, ColoursAxesInTheFixedFrameAfterTheLiveTransform) {
+  // The sensor lies on its side: its +y is the map's +z; the camera looks along it.
+  const double half = std::sqrt(0.5);
+  const tf::RigidTransform map_from_lidar{.rotation = {half, half, 0, 0}, .translation = {0, 0, 100}};
+  CloudBuilder builder("lidar");
+  builder.xyz();
+  builder.point({-8, 0, 0}).point({0, 5, 0}).point({8, 10, 0});
+  open(datasetOf(builder.build(), map_from_lidar), "map");
+  add("/points", with(kBig, {{"color_field", "z"}, {"colormap", "viridis"}}));
+  scene_->update(tf::TimePoint{1_s});
+  const auto bounds = scene_->boundsInFixed();
+  EXPECT_NEAR(bounds.zMin(), 100, 1e-9);
+  EXPECT_NEAR(bounds.zMax(), 110, 1e-9);
+  const auto picture = draw(1_s, fromAbove(0, 0, 200));
+  expectNear(pixel(picture, 20, 100), colorAt("viridis", 0.0));
+  expectNear(pixel(picture, 100, 100), colorAt("viridis", 0.5));
+  expectNear(pixel(picture, 180, 100), colorAt("viridis", 1.0));
+}
+
+TEST_F(CloudPicture, DrawsPointColoursByDefaultWhenThereAreAny) {
+  CloudBuilder builder("lidar");
+  builder.xyz().field("rgb", FieldType::Float32).field("intensity", FieldType::Float32);
+  const auto word = [](std::uint32_t bits) { return static_cast<double>(std::bit_cast<float>(bits)); };
+  builder.point({-8, 0, 0, word(0x00c80a14), 1})
+      .point({0, 0, 0, word(0x000ac814), 2})
+      .point({8, 0, 0, word(0x000a14c8), 3});
+  open(datasetOf(builder.build()), "map");
+  const auto& layer = add("/points", kBig);
+  const auto colors = drawThree();
+  expectNear(colors[0], {200, 10, 20}, 1);
+  expectNear(colors[1], {10, 200, 20}, 1);
+  expectNear(colors[2], {10, 20, 200}, 1);
+  EXPECT_THAT(layer.settingSpecs().front().choices,
+              testing::ElementsAre("auto", "rgb", "x", "y", "z", "flat", "intensity"));
+}
+
+TEST_F(CloudPicture, HoldsAFieldsRangeOverTimeWhicheverWayItCame) {
+  const auto dataset = DatasetBuilder()
+                           .topic("/tf", ObjectType::FrameTransforms)
+                           .transform(0, "map", "lidar")
+                           .topic("/points", ObjectType::PointCloud)
+                           .at(1_s, threePoints({0, 0, 0}, {0, 50, 100}))
+                           .at(2_s, threePoints({0, 0, 0}, {50, 50, 1000}))
+                           .build();
+  open(dataset, "map");
+  add("/points", kBig);
+  const auto later = drawThree(2_s);
+  expectNear(later[0], colorAt("turbo", 0.5));
+  expectNear(later[2], colorAt("turbo", 1.0));
+  expectNear(drawThree(1_s)[1], colorAt("turbo", 0.5));
+  EXPECT_EQ(drawThree(2_s), later);
+}
+
+TEST_F(CloudPicture, TakesManualPercentileAndReversedRanges) {
+  open(datasetOf(threePoints({0, 0, 0}, {0, 50, 1000})), "map");
+  auto& layer = add("/points", with(kBig, {{"range_mode", "manual"}, {"range_min", "0"}, {"range_max", "100"}}));
+  expectNear(drawThree()[1], colorAt("turbo", 0.5));
+  ASSERT_TRUE(layer.applySettings({{"range_max", "200"}, {"reverse_colormap", "true"}}));
+  expectNear(drawThree()[1], colorAt("turbo", 0.75));
+  ASSERT_TRUE(layer.applySettings({{"reverse_colormap", "false"},
+                                   {"range_mode", "percentile"},
+                                   {"percentile_low", "0"},
+                                   {"percentile_high", "50"}}));
+  expectNear(drawThree()[1], colorAt("turbo", 1.0));
+  ASSERT_TRUE(layer.applySettings({{"range_mode", "manual"}, {"range_min", "7"}, {"range_max", "7"}}));
+  expectNear(drawThree()[2], colorAt("turbo", 0.5));
+}
+
+TEST_F(CloudPicture, GivesNanFieldsTheirOwnColourAndDropsNanPoints) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  auto cloud = threePoints({0, 0, kNan}, {kNan, 5, 6});
+  open(datasetOf(std::move(cloud)), "map");
+  const auto& layer = add("/points", with(kBig, {{"missing_color", "#ff00ff"}}));
+  const auto colors = drawThree();
+  expectNear(colors[0], {255, 0, 255}, 1);
+  expectNear(colors[2], {0, 0, 0}, 0);
+  EXPECT_EQ(layer.status().level, scenegraph::StatusLevel::Info);
+  EXPECT_EQ(layer.status().code, "PointsDropped");
+  EXPECT_THAT(layer.status().message, HasSubstr("1 of 3 points"));
+  EXPECT_EQ(layer.counts(), (scenegraph::LayerCounts{{"points", 2}, {"dropped", 1}, {"bytes", 48}}));
+}
+
+TEST_F(CloudPicture, SaysWhyACloudIsNotDrawn) {
+  auto cloud = threePoints({0, 0, 0}, {1, 2, 3});
+  cloud.data.bytes = cloud.data.bytes.first(47);
+  const auto dataset = DatasetBuilder()
+                           .topic("/tf", ObjectType::FrameTransforms)
+                           .transform(0, "map", "lidar")
+                           .topic("/points", ObjectType::PointCloud)
+                           .at(1_s, threePoints({0, 0, 0}, {1, 2, 3}))
+                           .at(2_s, std::move(cloud))
+                           .build();
+  open(dataset, "map");
+  const auto& layer = add("/points", kBig);
+  EXPECT_GT(drawnPixels(draw(1_s, fromAbove())), 200);
+  EXPECT_EQ(drawnPixels(draw(2_s, fromAbove())), 0) << "nothing stale";
+  EXPECT_EQ(layer.status().level, scenegraph::StatusLevel::Error);
+  EXPECT_EQ(layer.status().code, "MalformedCloud");
+  EXPECT_THAT(layer.status().message, HasSubstr("/points"));
+  EXPECT_THAT(layer.status().message, HasSubstr("47 bytes"));
+  EXPECT_EQ(drawnPixels(draw(0, fromAbove())), 0);
+  EXPECT_EQ(layer.status().code, "NoMessage");
+  scene_->setFixedFrame("nowhere");
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+  EXPECT_EQ(layer.status().code, "UnknownTarget");
+}
+
+TEST_F(CloudPicture, DrawsSamePixelsAtAnEcefOffset) {
+  // The same little scene at the origin and on the earth's surface: cloud, axes and lines.
+  const auto build = [](const glm::dvec3& offset) {
+    CloudBuilder builder("lidar");
+    builder.xyz();
+    for (int i = 0; i < 400; ++i) {
+      builder.point({-9.5 + 0.93 * (i % 20), -9.5 + 0.95 * (i / 20), 0.013 * i});
+    }
+    return DatasetBuilder()
+        .topic("/tf", ObjectType::FrameTransforms)
+        .transform(0, "earth", "map", {.translation = offset})
+        .transform(0, "map", "base", turn(0.3, 2, 1, 0.5))
+        .transform(0, "base", "lidar", turn(-0.2, -1, 0.5, 0.25))
+        .topic("/points", ObjectType::PointCloud)
+        .at(1_s, builder.build())
+        .build();
+  };
+  const glm::dvec3 offset{4'177'000.25, 858'000.5, 4'727'000.125};
+  std::array<scenegraph::BytePicture, 2> pictures;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const glm::dvec3 at = i == 0 ? glm::dvec3(0.0) : offset;
+    open(build(at), "earth");
+    add("/points", {{"color_field", "z"}, {"point_size", "5"}});
+    add("tf", {{"axis_length", "2"}, {"hidden_frames", "map, earth"}});
+    scenegraph::CameraView view;
+    view.eye_from_fixed = scenegraph::lookAt(at + glm::dvec3{3, -12, 14}, at + glm::dvec3{1, 0, 0}, {0, 0, 1});
+    pictures[i] = draw(1_s, view);
+    scene_.reset();
+  }
+  EXPECT_GT(drawnPixels(pictures[0]), 2000);
+  int differing = 0;
+  int largest = 0;
+  for (std::size_t i = 0; i < pictures[0].rgb.size(); ++i) {
+    const int difference = std::abs(pictures[0].rgb[i] - pictures[1].rgb[i]);
+    differing += difference > 0 ? 1 : 0;
+    largest = std::max(largest, difference);
+  }
+  EXPECT_EQ(differing, 0) << "largest difference " << largest;
+}
+
+TEST_F(CloudPicture, KeepsFarCloudsOfFloatsSharp) {
+  // Coordinates of 4e6 m inside the cloud itself: a centimetre apart on the screen as at the origin.
+  std::array<scenegraph::BytePicture, 2> pictures;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double x = i == 0 ? 0.0 : 4'000'000.0;
+    CloudBuilder builder("map");
+    builder.field("x", FieldType::Float64).field("y", FieldType::Float64).field("z", FieldType::Float64);
+    for (int k = 0; k < 10; ++k) {
+      builder.point({x + 0.01 * k, 0.01 * k, 0});
+    }
+    open(datasetOf(builder.build()), "map");
+    add("/points", {{"color_field", "x"}, {"point_size", "3"}});
+    scenegraph::CameraView view = fromAbove(x + 0.045, 0.045, 5);
+    view.vertical_extent_m = 0.2;
+    pictures[i] = draw(1_s, view);
+  }
+  EXPECT_EQ(drawnPixels(pictures[0]), 90);
+  EXPECT_EQ(drawnPixels(pictures[1]), 90);
+}
+
+TEST_F(CloudPicture, ColourChangesUploadNothingAndFieldChangesTouchNoPosition) {
+  auto cloud = threePoints({0, 1, 2}, {1, 2, 3});
+  open(datasetOf(std::move(cloud)), "map");
+  auto& layer = add("/points", kBig);
+  (void)draw(1_s, fromAbove());
+  const auto geometry = [&] {
+    auto* node = scene_->frames().node("lidar")->getChild(0)->asGroup();
+    return node->getChild(0)->asDrawable()->asGeometry();
+  };
+  const osg::Array* positions = geometry()->getVertexArray();
+  const osg::Array* values = geometry()->getVertexAttribArray(6);
+  const unsigned positions_count = positions->getModifiedCount();
+  const unsigned values_count = values->getModifiedCount();
+  ASSERT_TRUE(layer.applySettings({{"colormap", "plasma"},
+                                   {"range_mode", "manual"},
+                                   {"range_max", "17"},
+                                   {"point_size", "4"},
+                                   {"opacity", "0.5"}}));
+  (void)draw(1_s, fromAbove());
+  EXPECT_EQ(geometry()->getVertexArray(), positions);
+  EXPECT_EQ(geometry()->getVertexAttribArray(6), values);
+  EXPECT_EQ(values->getModifiedCount(), values_count);
+  ASSERT_TRUE(layer.applySettings({{"color_field", "z"}}));
+  (void)draw(1_s, fromAbove());
+  EXPECT_EQ(geometry()->getVertexArray(), positions);
+  EXPECT_EQ(positions->getModifiedCount(), positions_count);
+  EXPECT_NE(positions->getVertexBufferObject(), values->getVertexBufferObject());
+}
+
+TEST_F(CloudPicture, BlendsWhenNotOpaque) {
+  open(datasetOf(threePoints({0, 0, 0}, {1, 2, 3})), "map");
+  add("/points", with(kBig, {{"color_field", "flat"}, {"flat_color", "#ffffff"}, {"opacity", "0.5"}}));
+  // Half of scene-linear white is 188 in sRGB.
+  expectNear(drawThree()[1], {188, 188, 188});
+}
+
+TEST_F(CloudPicture, SaysWhichFieldsThereAreWhenOneIsUnknown) {
+  open(datasetOf(threePoints({0, 0, 0}, {1, 2, 3})), "map");
+  const auto& layer = add("/points", with(kBig, {{"color_field", "reflectivity"}}));
+  EXPECT_GT(drawnPixels(draw(1_s, fromAbove())), 200);
+  EXPECT_EQ(layer.status().code, "UnknownField");
+  EXPECT_THAT(layer.status().message, HasSubstr("x, y, z, intensity"));
+}
+
+std::shared_ptr<scenegraph::Dataset> tree() {
+  return DatasetBuilder()
+      .topic("/tf", ObjectType::FrameTransforms)
+      .transform(0, "map", "base", translate(5, 0, 0))
+      .transform(0, "base", "arm", turn(1.5707963267948966, 0, 5, 0))
+      .transform(5_s, "base", "late", translate(0, -5, 0))
+      .build();
+}
+
+class AxesPicture : public ScenePictureTest {};
+
+TEST_F(AxesPicture, DrawsATriadAtEachFrameAndALineToItsParent) {
+  open(tree(), "map");
+  const auto& layer = add("tf", {{"axis_length", "2"}});
+  const auto picture = draw(1_s, fromAbove());
+  // base lies at (5, 0) = pixel (150, 100), its x to the right, its y up; arm at (5, 5), turned left.
+  const auto isRed = [](const Bytes3& c) { return c[0] > 120 && c[1] < 80 && c[2] < 80; };
+  const auto isGreen = [](const Bytes3& c) { return c[1] > 100 && c[0] < 80 && c[2] < 100; };
+  EXPECT_TRUE(isRed(pixel(picture, 165, 100)));
+  EXPECT_TRUE(isGreen(pixel(picture, 150, 85)));
+  EXPECT_TRUE(isRed(pixel(picture, 150, 35)));
+  EXPECT_TRUE(isGreen(pixel(picture, 135, 50)));
+  int magenta = 0;
+  for (int x = 122; x < 148; ++x) {
+    for (int y = 99; y <= 100; ++y) {
+      magenta += pixel(picture, x, y) == Bytes3{255, 0, 255} ? 1 : 0;
+    }
+  }
+  EXPECT_GE(magenta, 25) << "line from base to map";
+  EXPECT_EQ(layer.counts(), (scenegraph::LayerCounts{{"frames", 4}, {"unresolved", 1}}));
+  EXPECT_EQ(layer.status().code, "UnresolvedFrames");
+  EXPECT_THAT(layer.status().message, HasSubstr("late"));
+}
+
+TEST_F(AxesPicture, HidesLinesAndFramesOnDemand) {
+  open(tree(), "map");
+  auto& layer = add("tf", {{"axes", "false"}});
+  const int lines = drawnPixels(draw(1_s, fromAbove()));
+  EXPECT_NEAR(lines, 100, 6) << "two lines of 5 m";
+  ASSERT_TRUE(layer.applySettings({{"parent_lines", "false"}}));
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+  ASSERT_TRUE(layer.applySettings({{"parent_lines", "true"}, {"hidden_frames", " arm ,late"}}));
+  EXPECT_NEAR(drawnPixels(draw(1_s, fromAbove())), 50, 4);
+  EXPECT_EQ(layer.counts()[0].second, 2U);
+  ASSERT_TRUE(layer.applySettings({{"hidden_frames", ""}, {"frame_filter", "^a"}}));
+  EXPECT_NEAR(drawnPixels(draw(1_s, fromAbove())), 50, 4);
+  EXPECT_EQ(layer.counts()[0].second, 1U);
+  const auto refused = layer.applySettings({{"frame_filter", "(["}});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "BadValue");
+  EXPECT_EQ(layer.settings().at("frame_filter"), "^a");
+}
+
+TEST_F(AxesPicture, WritesNamesOnlyWhenAsked) {
+  open(tree(), "map");
+  auto& layer = add("tf", {{"axes", "false"}, {"parent_lines", "false"}, {"labels", "true"}});
+  const auto picture = draw(1_s, fromAbove());
+  int beside_base = 0;
+  for (int x = 150; x < 190; ++x) {
+    for (int y = 82; y < 104; ++y) {
+      beside_base += pixel(picture, x, y)[0] > 100 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(beside_base, 60);
+  EXPECT_LT(beside_base, 500);
+  ASSERT_TRUE(layer.applySettings({{"labels", "false"}}));
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+}
+
+TEST_F(AxesPicture, ShowsFramesThatArriveLater) {
+  const auto dataset = tree();
+  open(dataset, "map");
+  const auto& layer = add("tf");
+  (void)draw(6_s, fromAbove());
+  EXPECT_EQ(layer.counts(), (scenegraph::LayerCounts{{"frames", 4}, {"unresolved", 0}}));
+  EXPECT_EQ(layer.status(), scenegraph::Status{});
+  ASSERT_TRUE(dataset->transforms()->insert({"arm", "tool", tf::TimePoint{6_s}, translate(1, 0, 0)}));
+  (void)draw(6_s, fromAbove());
+  EXPECT_EQ(layer.counts()[0].second, 5U);
+}
+
+class GridPicture : public ScenePictureTest {};
+
+TEST_F(GridPicture, DrawsTenByTenCellsOfOneMetreByDefault) {
+  open(tree(), "map");
+  add("grid");
+  scenegraph::CameraView view = fromAbove();
+  view.vertical_extent_m = 12.0;
+  const auto picture = draw(1_s, view, 240, 240);
+  // Lines every 20 pixels from 20 to 220, none outside: each row between lines crosses eleven.
+  int crossed = 0;
+  for (int x = 0; x < 240; ++x) {
+    crossed += pixel(picture, x, 110) != Bytes3{0, 0, 0} ? 1 : 0;
+  }
+  EXPECT_EQ(crossed, 11);
+  EXPECT_EQ(pixel(picture, 10, 110), (Bytes3{0, 0, 0}));
+  EXPECT_FALSE(scene_->boundsInFixed().valid());
+}
+
+TEST_F(GridPicture, TakesPlaneCountSizeAndColour) {
+  open(tree(), "map");
+  add("grid", {{"plane", "xz"}, {"cells", "2"}, {"cell_size", "4"}, {"color", "#ff0000"}});
+  EXPECT_NEAR(drawnPixels(draw(1_s, fromAbove())), 80, 4) << "seen from above, one line 8 m long";
+  scenegraph::CameraView front;
+  front.eye_from_fixed = scenegraph::lookAt({0, -10, 0}, {0, 0, 0}, {0, 0, 1});
+  front.is_orthographic = true;
+  front.vertical_extent_m = 20.0;
+  const auto picture = draw(1_s, front);
+  EXPECT_NEAR(drawnPixels(picture), 6 * 80, 20);
+  int red = 0;
+  for (int y = 0; y < 200; ++y) {
+    red += pixel(picture, 80, y) == Bytes3{255, 0, 0} ? 1 : 0;
+  }
+  EXPECT_EQ(red, 3);
+}
+
+}  // namespace
+}  // namespace stillframe::test

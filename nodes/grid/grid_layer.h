@@ -24,7 +24,7 @@ class GridLayer final : public scenegraph::Layer {
     double cell_size_m = 1.0;
     std::int64_t cells = 10;
     std::string plane = "xy";
-    scenegraph::Color color{.r = 0.36F, .g = 0.38F, .b = 0.41F, .a = 1.0F};
+    scenegraph::Color color{.r = 92 / 255.0F, .g = 97 / 255.0F, .b = 105 / 255.0F, .a = 1.0F};
 
     friend bool operator==(const Settings&, const Settings&) = default;
   };

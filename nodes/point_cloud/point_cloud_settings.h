@@ -20,8 +20,8 @@ struct PointCloudSettings {
   std::string size_unit = "px";
   bool round_points = false;
   double opacity = 1.0;
-  scenegraph::Color flat_color{.r = 0.85F, .g = 0.87F, .b = 0.9F, .a = 1.0F};
-  scenegraph::Color missing_color{.r = 0.45F, .g = 0.45F, .b = 0.45F, .a = 1.0F};
+  scenegraph::Color flat_color{.r = 217 / 255.0F, .g = 222 / 255.0F, .b = 230 / 255.0F, .a = 1.0F};
+  scenegraph::Color missing_color{.r = 115 / 255.0F, .g = 115 / 255.0F, .b = 115 / 255.0F, .a = 1.0F};
 
   friend bool operator==(const PointCloudSettings&, const PointCloudSettings&) = default;
 };

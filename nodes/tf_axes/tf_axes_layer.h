@@ -34,7 +34,7 @@ class TfAxesLayer final : public scenegraph::Layer {
     std::string frame_filter;
     std::string hidden_frames;
     scenegraph::Color line_color{.r = 1.0F, .g = 0.0F, .b = 1.0F, .a = 1.0F};
-    scenegraph::Color label_color{.r = 0.95F, .g = 0.95F, .b = 0.95F, .a = 1.0F};
+    scenegraph::Color label_color{.r = 242 / 255.0F, .g = 242 / 255.0F, .b = 242 / 255.0F, .a = 1.0F};
 
     friend bool operator==(const Settings&, const Settings&) = default;
   };

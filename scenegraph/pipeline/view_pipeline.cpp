@@ -9,6 +9,7 @@
 #include <osg/GLObjects>
 #include <osg/Texture2D>
 #include <osgViewer/GraphicsWindow>
+#include <osgViewer/Renderer>
 #include <osgViewer/Viewer>
 
 #include "generated/stillframe_render/shaders.h"
@@ -114,6 +115,10 @@ void ViewPipeline::Impl::makeViewer() {
   main.setProjectionResizePolicy(osg::Camera::FIXED);
   stages = new osg::Group;
   viewer->setSceneData(stages);
+  // OSG's compile step draws text outright, with no target bound. What is drawn compiles itself.
+  if (auto* const renderer = dynamic_cast<osgViewer::Renderer*>(main.getRenderer())) {
+    renderer->setCompileOnNextDraw(false);
+  }
 }
 
 osg::ref_ptr<osg::Geometry> ViewPipeline::Impl::makeStep(const PostPass& pass) const {

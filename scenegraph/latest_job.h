@@ -102,7 +102,8 @@ class LatestJob {
     bool is_running = false;
   };
 
-  static Result runOne(Work work) {
+  // By value: what the work holds is let go of here, outside the lock.
+  static Result runOne(Work work) {  // NOLINT(performance-unnecessary-value-param)
     try {
       return work.run();
     } catch (const std::exception& error) {

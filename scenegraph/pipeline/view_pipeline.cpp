@@ -267,8 +267,8 @@ std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, i
   return remade ? checkTargets() : std::expected<void, Status>{};
 }
 
-ViewPipeline::ViewPipeline(osg::ref_ptr<osg::Group> root) : impl_(std::make_unique<Impl>()) {
-  impl_->root = std::move(root);
+ViewPipeline::ViewPipeline(const osg::ref_ptr<osg::Group>& root) : impl_(std::make_unique<Impl>()) {
+  impl_->root = root;
 }
 
 ViewPipeline::~ViewPipeline() { releaseGl(); }

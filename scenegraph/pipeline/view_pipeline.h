@@ -45,7 +45,7 @@ struct LinearFrame {
 /// viewers with ordinary depth. Every call with a context current goes to the same thread.
 class ViewPipeline {
  public:
-  explicit ViewPipeline(osg::ref_ptr<osg::Group> root);
+  explicit ViewPipeline(const osg::ref_ptr<osg::Group>& root);
   /// Calls releaseGl() when it was not: the context must be current then.
   ~ViewPipeline();
   ViewPipeline(const ViewPipeline&) = delete;

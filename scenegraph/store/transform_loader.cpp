@@ -12,7 +12,7 @@ constexpr std::size_t kMaxListedRefusals = 1024;
 constexpr std::size_t kMaxNamedEdges = 8;
 
 std::string refusalMessage(const tf::BulkInsertReport::Refusal& refusal, const tf::TransformBuffer& buffer) {
-  const std::string edge = "'" + refusal.parent + "' -> '" + refusal.child + "'";
+  std::string edge = "'" + refusal.parent + "' -> '" + refusal.child + "'";
   const std::string from = " (first at " + timeText(refusal.first_stamp) + ")";
   switch (refusal.error) {
     case tf::InsertError::EmptyFrameName:

@@ -112,11 +112,11 @@ std::expected<McapFile::Index, std::string> McapFile::readSummary(const FooterRe
     switch (opcode) {
       case Opcode::Schema:
         is_good = keep(parseSchema(content()),
-                       [&](SchemaRecord record) { index.schemas.try_emplace(record.id, std::move(record)); });
+                       [&](const SchemaRecord& record) { index.schemas.try_emplace(record.id, record); });
         break;
       case Opcode::Channel:
         is_good = keep(parseChannel(content()),
-                       [&](ChannelRecord record) { index.channels.try_emplace(record.id, std::move(record)); });
+                       [&](const ChannelRecord& record) { index.channels.try_emplace(record.id, record); });
         break;
       case Opcode::ChunkIndex:
         is_good = keep(parseChunkIndex(content()), [&](ChunkIndexRecord record) {

@@ -247,7 +247,7 @@ McapWriter::Result McapWriter::addMetadata(std::string_view name, const std::map
 void McapWriter::writeSummary() {
   const std::uint64_t schemas_start = position_;
   std::vector<std::byte> offsets;
-  const auto closeGroup = [&](Opcode opcode, std::uint64_t start) {
+  const auto close_group = [&](Opcode opcode, std::uint64_t start) {
     if (position_ > start) {
       append(offsets, RecordBuilder(Opcode::SummaryOffset)
                           .number(static_cast<std::uint8_t>(opcode))
@@ -260,11 +260,11 @@ void McapWriter::writeSummary() {
   for (const SchemaRecord& schema : schemas_) {
     put(build(schema).bytes());
   }
-  const std::uint64_t channels_start = closeGroup(Opcode::Schema, schemas_start);
+  const std::uint64_t channels_start = close_group(Opcode::Schema, schemas_start);
   for (const ChannelRecord& channel : channels_) {
     put(build(channel).bytes());
   }
-  const std::uint64_t statistics_start = closeGroup(Opcode::Channel, channels_start);
+  const std::uint64_t statistics_start = close_group(Opcode::Channel, channels_start);
   std::vector<std::pair<std::uint16_t, std::uint64_t>> counts;
   for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
     counts.emplace_back(channels_[channel].id, channel_counts_[channel]);
@@ -280,7 +280,7 @@ void McapWriter::writeSummary() {
           .number(end_time_)
           .pairs(counts)
           .bytes());
-  const std::uint64_t chunks_start = closeGroup(Opcode::Statistics, statistics_start);
+  const std::uint64_t chunks_start = close_group(Opcode::Statistics, statistics_start);
   for (const WrittenChunk& chunk : chunks_) {
     put(RecordBuilder(Opcode::ChunkIndex)
             .number(chunk.start_time)
@@ -294,11 +294,11 @@ void McapWriter::writeSummary() {
             .number(chunk.size)
             .bytes());
   }
-  const std::uint64_t attachments_start = closeGroup(Opcode::ChunkIndex, chunks_start);
+  const std::uint64_t attachments_start = close_group(Opcode::ChunkIndex, chunks_start);
   put(attachment_indexes_);
-  const std::uint64_t metadata_start = closeGroup(Opcode::AttachmentIndex, attachments_start);
+  const std::uint64_t metadata_start = close_group(Opcode::AttachmentIndex, attachments_start);
   put(metadata_indexes_);
-  closeGroup(Opcode::MetadataIndex, metadata_start);
+  close_group(Opcode::MetadataIndex, metadata_start);
   put(offsets);
 }
 

@@ -33,7 +33,7 @@ class DepthCamera final : public Topic {
   explicit DepthCamera(const Stage& stage) : stage_(stage) {}
   std::string_view name() const override { return "/camera/points"; }
   Ros2Type type() const override { return pointCloud2Type(); }
-  std::int64_t period_ns() const override { return 200'000'000; }
+  std::int64_t periodNs() const override { return 200'000'000; }
 
   std::vector<std::byte> message(std::int64_t elapsed_ns) const override {
     using scenegraph::FieldType;

@@ -34,7 +34,7 @@ class Lidar final : public Topic {
   }
   std::string_view name() const override { return "/lidar/points"; }
   Ros2Type type() const override { return pointCloud2Type(); }
-  std::int64_t period_ns() const override { return 100'000'000; }
+  std::int64_t periodNs() const override { return 100'000'000; }
 
   std::vector<std::byte> message(std::int64_t elapsed_ns) const override {
     using scenegraph::FieldType;
@@ -67,7 +67,8 @@ class Lidar final : public Topic {
     double sin_azimuth = 0.0;
     for (std::uint32_t i = 0; i < points_; ++i) {
       const std::uint32_t ring = i % kRings;
-      const double turn = static_cast<double>(i / kRings) / columns;
+      const std::uint32_t column = i / kRings;
+      const double turn = static_cast<double>(column) / columns;
       if (ring == 0) {
         const double azimuth = 2.0 * std::numbers::pi * (0.5 - turn);  // clockwise, from behind
         cos_azimuth = std::cos(azimuth);

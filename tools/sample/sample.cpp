@@ -68,8 +68,8 @@ std::expected<SampleReport, scenegraph::Status> writeSample(const std::filesyste
     }
     ++report.messages;
     report.bytes += bytes.size();
-    next->elapsed_ns += next->topic->period_ns();
-    if (next->topic->period_ns() == 0 || next->elapsed_ns > options.duration_ns) {
+    next->elapsed_ns += next->topic->periodNs();
+    if (next->topic->periodNs() == 0 || next->elapsed_ns > options.duration_ns) {
       due.erase(next);
     }
   }

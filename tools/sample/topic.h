@@ -27,7 +27,7 @@ class Topic {
   [[nodiscard]] virtual std::string_view name() const = 0;
   [[nodiscard]] virtual Ros2Type type() const = 0;
   /// Between messages; 0 for one message at the start.
-  [[nodiscard]] virtual std::int64_t period_ns() const = 0;
+  [[nodiscard]] virtual std::int64_t periodNs() const = 0;
   /// The serialised message of that instant.
   [[nodiscard]] virtual std::vector<std::byte> message(std::int64_t elapsed_ns) const = 0;
 };

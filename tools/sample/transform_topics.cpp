@@ -19,7 +19,7 @@ class StaticTransforms final : public Topic {
   explicit StaticTransforms(const Stage& stage) : stage_(stage) {}
   std::string_view name() const override { return "/tf_static"; }
   Ros2Type type() const override { return tfMessageType(); }
-  std::int64_t period_ns() const override { return 0; }
+  std::int64_t periodNs() const override { return 0; }
   std::vector<std::byte> message(std::int64_t elapsed_ns) const override {
     const tf::TimePoint stamp{stage_.start_ns + elapsed_ns};
     const std::array transforms{
@@ -40,7 +40,7 @@ class OdometryTransforms final : public Topic {
   explicit OdometryTransforms(const Stage& stage) : stage_(stage) {}
   std::string_view name() const override { return "/tf"; }
   Ros2Type type() const override { return tfMessageType(); }
-  std::int64_t period_ns() const override { return Robot::kStep_ns; }
+  std::int64_t periodNs() const override { return Robot::kStep_ns; }
   std::vector<std::byte> message(std::int64_t elapsed_ns) const override {
     const tf::TimePoint stamp{stage_.start_ns + elapsed_ns};
     const Robot& robot = stage_.robot;
@@ -62,7 +62,7 @@ class LocalisationTransforms final : public Topic {
   explicit LocalisationTransforms(const Stage& stage) : stage_(stage) {}
   std::string_view name() const override { return "/tf"; }
   Ros2Type type() const override { return tfMessageType(); }
-  std::int64_t period_ns() const override { return Robot::kCorrection_ns; }
+  std::int64_t periodNs() const override { return Robot::kCorrection_ns; }
   std::vector<std::byte> message(std::int64_t elapsed_ns) const override {
     const std::array transforms{
         FrameTransform{{stage_.start_ns + elapsed_ns}, "map", "odom", stage_.robot.mapFromOdom(elapsed_ns)}};

@@ -119,14 +119,26 @@ void OrbitCamera::frame(const osg::BoundingBoxd& box, double aspect) {
   const glm::dvec3 low(box.xMin(), box.yMin(), box.zMin());
   const glm::dvec3 high(box.xMax(), box.yMax(), box.zMax());
   const glm::dvec3 half = high / 2.0 - low / 2.0;
-  const double sphere_radius = std::hypot(half.x, half.y, half.z);
   const double width_over_height = std::isfinite(aspect) && aspect > 0.0 ? aspect : 1.0;
-  const double half_fov = state_.vertical_fov_rad / 2.0;
-  const double narrow_half_fov = std::min(half_fov, std::atan(std::tan(half_fov) * width_over_height));
+  const double slope_y = std::tan(state_.vertical_fov_rad / 2.0);
+  const double slope_x = slope_y * width_over_height;
+  const glm::dvec3 back(std::cos(state_.pitch_rad) * std::cos(state_.yaw_rad),
+                        std::cos(state_.pitch_rad) * std::sin(state_.yaw_rad), std::sin(state_.pitch_rad));
+  const glm::dvec3 right(-std::sin(state_.yaw_rad), std::cos(state_.yaw_rad), 0.0);
+  const glm::dvec3 up = glm::cross(back, right);
+  double radius_m = 0.0;  // at which the outermost corner touches an edge of the picture
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 offset((corner & 1) != 0 ? half.x : -half.x, (corner & 2) != 0 ? half.y : -half.y,
+                            (corner & 4) != 0 ? half.z : -half.z);
+    const double needed =
+        std::max(std::abs(glm::dot(offset, right)) / slope_x, std::abs(glm::dot(offset, up)) / slope_y);
+    radius_m = std::max(radius_m, glm::dot(offset, back) + needed);
+  }
   State state = state_;
   state.focal_point = low / 2.0 + high / 2.0;
-  if (sphere_radius > 0.0) {  // a single point is looked at from where we are
-    state.radius_m = std::min(sphere_radius / std::sin(narrow_half_fov), kMaxRadiusM);
+  if (radius_m > 0.0) {  // a single point is looked at from where we are
+    constexpr double kMargin = 1.04;
+    state.radius_m = std::min(kMargin * radius_m, kMaxRadiusM);
   }
   setState(state);
 }

@@ -27,10 +27,12 @@ int run(int argc, char** argv) {
     CLI::App* const command = app.add_subcommand(name, what);
     commands.emplace_back(command, make(*command));
   };
+  add("view", "Open recordings in the inspector window", addViewCommand);
   add("render", "Draw one instant to a PNG or EXR file, without a display", addRenderCommand);
   add("info", "List topics, frames and problems of a recording", addInfoCommand);
   add("tf", "Look up one transform", addTfCommand);
   add("sample", "Write a synthetic recording", addSampleCommand);
+  add("bench", "Measure this machine and this build", addBenchCommand);
 
   try {
     app.parse(argc, argv);

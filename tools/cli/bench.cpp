@@ -1,0 +1,204 @@
+#include <unistd.h>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <random>
+#include <thread>
+
+#include "scenegraph/pipeline/offscreen_renderer.h"
+#include "tools/cli/bench_results.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/json_text.h"
+#include "tools/cli/scene_session.h"
+#include "tools/sample/sample.h"
+
+namespace stillframe::cli {
+namespace {
+
+struct BenchOptions {
+  std::string file;
+  bool is_json = false;
+};
+
+/// A sample recording that is gone at the end.
+class TemporarySample {
+ public:
+  TemporarySample()
+      : path_(std::filesystem::temp_directory_path() / ("stillframe-bench-" + std::to_string(::getpid()) + ".mcap")) {}
+  ~TemporarySample() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporarySample(const TemporarySample&) = delete;
+  TemporarySample& operator=(const TemporarySample&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string processorName() {
+  std::ifstream cpuinfo("/proc/cpuinfo");
+  for (std::string line; std::getline(cpuinfo, line);) {
+    if (line.starts_with("model name")) {
+      return line.substr(std::min(line.size(), line.find(':') + 2));
+    }
+  }
+  return "unknown processor";
+}
+
+void addDistribution(std::vector<BenchResult>& results, const std::string& name, std::vector<double> values_ms,
+                     std::optional<double> middle_at_most = {}) {
+  std::ranges::sort(values_ms);
+  results.push_back({name + ", median", quantile(values_ms, 0.5), "ms", middle_at_most});
+  results.push_back({name + ", 95 %", quantile(values_ms, 0.95), "ms"});
+  results.push_back({name + ", longest", values_ms.back(), "ms"});
+}
+
+/// Ticks at random times, each complete: decoded, converted and posed, not drawn.
+std::vector<double> scrub(SceneSession& session, const std::vector<tf::TimePoint>& times) {
+  std::vector<double> ticks_ms;
+  for (const tf::TimePoint time : times) {
+    ticks_ms.push_back(1e3 * secondsOf([&] { session.showTime(time); }));
+  }
+  return ticks_ms;
+}
+
+Result<void> benchRecording(const std::string& file, std::vector<BenchResult>& results, std::string& renderer_name) {
+  ViewOptions options;
+  options.recording.file = file;
+  std::unique_ptr<SceneSession> session;
+  std::unique_ptr<scenegraph::OffscreenRenderer> renderer;
+  Result<void> done;
+  std::vector<double> frames_ms;
+  const auto draw = [&]() -> Result<void> {
+    const scenegraph::RenderOptions picture{options.size.width_px, options.size.height_px, options.background};
+    const auto drawn = renderer->render(session->scene().root(), session->camera(), picture);
+    if (!drawn) {
+      return std::unexpected(fileError(file, drawn.error()));
+    }
+    frames_ms.push_back(renderer->lastFrame().frame_ms);
+    return {};
+  };
+  const double opened_s = secondsOf([&] {
+    auto made = SceneSession::make(options);
+    if (!made) {
+      done = std::unexpected(made.error());
+      return;
+    }
+    session = std::move(*made);
+  });
+  if (!done) {
+    return done;
+  }
+  const double first_s = secondsOf([&] {
+    auto created = scenegraph::OffscreenRenderer::create();
+    if (!created) {
+      done = std::unexpected(fileError(file, created.error()));
+      return;
+    }
+    renderer = std::move(*created);
+    done = draw();
+  });
+  if (!done) {
+    return done;
+  }
+  results.push_back({"open, load and first tick", opened_s * 1e3, "ms"});
+  results.push_back({"first picture after that, 1280 x 720", first_s * 1e3, "ms"});
+  renderer_name = renderer->context().info().renderer;
+  frames_ms.clear();
+  for (int frame = 0; frame < 15 && done; ++frame) {
+    done = draw();
+  }
+  if (!done) {
+    return done;
+  }
+  addDistribution(results, "frame, 1280 x 720", frames_ms);
+
+  const auto range = *session->scene().dataset().timeRange();
+  std::mt19937_64 random(7);
+  std::vector<tf::TimePoint> times;
+  for (int i = 0; i < 100; ++i) {
+    const double place = static_cast<double>(random() >> 11U) * 0x1.0p-53;
+    const double span_ns = tf::secondsBetween(range.first, range.second) * 1e9;
+    times.push_back(std::min(range.second, tf::TimePoint{range.first.ns + static_cast<std::int64_t>(place * span_ns)}));
+  }
+  addDistribution(results, "scrub to a random time, first visit", scrub(*session, times));
+  addDistribution(results, "scrub to a random time, cached", scrub(*session, times), 16.6);
+  return {};
+}
+
+void print(const std::vector<BenchResult>& results, const std::string& processor, unsigned cores,
+           const std::string& renderer) {
+  std::printf("%s, %u cores; renderer: %s\n", processor.c_str(), cores, renderer.c_str());
+  for (const BenchResult& result : results) {
+    std::printf("  %-42s %12.4g %-12s", result.name.c_str(), result.value, result.unit.c_str());
+    if (result.at_most) {
+      std::printf(" %s (at most %g)", result.value <= *result.at_most ? "ok" : "MISSED", *result.at_most);
+    } else if (result.at_least) {
+      std::printf(" %s (at least %g)", result.value >= *result.at_least ? "ok" : "MISSED", *result.at_least);
+    }
+    std::printf("\n");
+  }
+}
+
+Json toJson(const std::vector<BenchResult>& results, const std::string& processor, unsigned cores,
+            const std::string& renderer) {
+  Json json{{"processor", processor}, {"cores", cores}, {"renderer", renderer}, {"results", Json::array()}};
+  for (const BenchResult& result : results) {
+    Json row{{"name", result.name}, {"value", result.value}, {"unit", result.unit}};
+    if (result.at_most) {
+      row["at_most"] = *result.at_most;
+    }
+    if (result.at_least) {
+      row["at_least"] = *result.at_least;
+    }
+    json["results"].push_back(std::move(row));
+  }
+  return json;
+}
+
+Result<void> runBench(const BenchOptions& options) {
+  std::vector<BenchResult> results;
+  std::string renderer;
+  const TemporarySample sample;
+  std::string file = options.file;
+  if (file.empty()) {
+    file = sample.path().string();
+    std::optional<CliError> failed;
+    const double made_s = secondsOf([&] {
+      if (const auto report = sample::writeSample(sample.path(), {}); !report) {
+        failed = fileError(file, report.error());
+      }
+    });
+    if (failed) {
+      return std::unexpected(*failed);
+    }
+    results.push_back({"sample recording of 10 s, made", made_s * 1e3, "ms", 2000.0});
+  }
+  if (const auto done = benchRecording(file, results, renderer); !done) {
+    return done;
+  }
+  benchClouds(results);
+  benchTransforms(results);
+  const unsigned cores = std::thread::hardware_concurrency();
+  if (options.is_json) {
+    std::fputs(jsonText(toJson(results, processorName(), cores, renderer)).c_str(), stdout);
+  } else {
+    print(results, processorName(), cores, renderer);
+  }
+  return {};
+}
+
+}  // namespace
+
+Command addBenchCommand(CLI::App& app) {
+  auto options = std::make_shared<BenchOptions>();
+  app.add_option("FILE", options->file, "The recording to measure with; default: the sample recording");
+  app.add_flag("--json", options->is_json, "One JSON object instead of a table");
+  return [options] { return runBench(*options); };
+}
+
+}  // namespace stillframe::cli

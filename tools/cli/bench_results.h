@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stillframe::cli {
+
+/// One measured number, and what it should be where there is a target.
+struct BenchResult {
+  std::string name;
+  double value = 0.0;
+  std::string unit;
+  std::optional<double> at_most = {};
+  std::optional<double> at_least = {};
+};
+
+/// Wall time of one call in seconds.
+template <typename Function>
+double secondsOf(const Function& function) {
+  const auto start = std::chrono::steady_clock::now();
+  function();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The best of several calls: what the machine can do when nobody disturbs it.
+template <typename Function>
+double bestSecondsOf(int calls, const Function& function) {
+  double best = secondsOf(function);
+  for (int call = 1; call < calls; ++call) {
+    best = std::min(best, secondsOf(function));
+  }
+  return best;
+}
+
+/// Value below which `fraction` of the sorted values lie; not of none.
+[[nodiscard]] inline double quantile(const std::vector<double>& sorted, double fraction) {
+  return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1) + 0.5)];
+}
+
+// The cases; each appends what it measured.
+
+/// Memory copy, and cloud conversion beside it.
+void benchClouds(std::vector<BenchResult>& results);
+/// The TransformBuffer beside its targets.
+void benchTransforms(std::vector<BenchResult>& results);
+
+}  // namespace stillframe::cli

@@ -1,0 +1,137 @@
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/cli/commands.h"
+#include "tools/cli/layer_argument.h"
+#include "tools/cli/recording_options.h"
+#include "tools/cli/time_argument.h"
+#ifdef STILLFRAME_HAS_VIEWER
+#include "tools/ingest/file.h"
+#include "viewer/inspector.h"
+#endif
+
+namespace stillframe::cli {
+namespace {
+
+constexpr int kMostViews = 9;
+
+struct ViewCommandOptions {
+  std::vector<std::string> files;
+  RecordingOptions recording;  // its clock and switch; the files are above
+  int views = 1;
+  std::string time = "start";
+  std::string fixed_frame;
+  std::vector<std::string> layers;
+  bool only_named_layers = false;
+  std::string screenshot;
+};
+
+#ifdef STILLFRAME_HAS_VIEWER
+
+bool isSet(const char* variable) {
+  const char* const value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+/// Refuses what can be told to be no recording before a window opens; the rest is read while the window is there.
+Result<void> checkFile(const std::string& path) {
+  const auto file = ingest::File::open(path);
+  if (!file) {
+    return std::unexpected(fileError(path, file.error()));
+  }
+  constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
+  std::array<std::byte, kMagic.size()> head{};
+  const std::size_t got = (*file)->read(0, head);
+  if (got != head.size() || std::string_view(reinterpret_cast<const char*>(head.data()), head.size()) != kMagic) {
+    return failure(path + ": not an MCAP file" + (got == 0 ? ": it is empty" : ""));
+  }
+  return {};
+}
+
+/// What the inspector calls on a worker thread for each recording it opens.
+viewer::RecordingOpener makeOpener(const RecordingOptions& options) {
+  return [options](const std::vector<std::filesystem::path>& files)
+             -> std::expected<viewer::OpenedRecording, scenegraph::Status> {
+    auto opened = ingest::Recording::open(files, options.clock);
+    if (!opened) {
+      return std::unexpected(opened.error());
+    }
+    const std::shared_ptr<ingest::Recording> recording = std::move(*opened);
+    recording->dataset()->transforms()->setStaticForAllTime(options.static_always);
+    return viewer::OpenedRecording{
+        recording->dataset(), [recording](const std::function<bool(double)>& progress) { recording->load(progress); }};
+  };
+}
+
+Result<void> runView(const ViewCommandOptions& options) {
+  if (const auto time = parseTime(options.time); !time) {
+    return std::unexpected(time.error());
+  }
+  viewer::InspectorOptions inspector;
+  for (const std::string& text : options.layers) {
+    auto layer = parseLayer(text);
+    if (!layer) {
+      return std::unexpected(layer.error());
+    }
+    inspector.layers.layers.push_back({std::move(layer->topic), std::move(layer->settings)});
+  }
+  for (const std::string& file : options.files) {
+    if (const auto checked = checkFile(file); !checked) {
+      return checked;
+    }
+    inspector.files.emplace_back(file);
+  }
+  if (!isSet("DISPLAY") && !isSet("WAYLAND_DISPLAY") && !isSet("QT_QPA_PLATFORM")) {
+    return failure(
+        "view needs a display, and neither DISPLAY nor WAYLAND_DISPLAY is set; 'stillframe render FILE --out "
+        "picture.png' needs none");
+  }
+  inspector.layers.only = options.only_named_layers;
+  inspector.time = options.time;
+  inspector.views = options.views;
+  if (!options.fixed_frame.empty()) {
+    inspector.fixed_frame = options.fixed_frame;
+  }
+  if (!options.screenshot.empty()) {
+    inspector.screenshot = options.screenshot;
+  }
+  std::string name = "stillframe";
+  std::array<char*, 2> arguments{name.data(), nullptr};
+  const int code = viewer::runInspector(1, arguments.data(), inspector, makeOpener(options.recording));
+  return code == 0 ? Result<void>{} : failure("the inspector ended with code " + std::to_string(code));
+}
+
+#else
+
+Result<void> runView(const ViewCommandOptions&) {
+  return failure("this build has no inspector window; 'stillframe render FILE --out picture.png' needs none");
+}
+
+#endif
+
+}  // namespace
+
+Command addViewCommand(CLI::App& app) {
+  auto options = std::make_shared<ViewCommandOptions>();
+  app.add_option("FILE", options->files, "Recordings: the parts of a split one; none: a window that waits for a drop");
+  addTransformOptions(app, options->recording);
+  app.add_option("--views", options->views, "Views side by side")
+      ->check(CLI::Range(1, kMostViews))
+      ->capture_default_str();
+  app.add_option("--time", options->time, "Nanoseconds, +SECONDS from the start, start, or end")->capture_default_str();
+  app.add_option("--fixed-frame", options->fixed_frame, "Frame that stands still; default: map, world, odom, ...");
+  app.add_option("--layer", options->layers, "TOPIC[:key=value,...]: settings of a layer; may be repeated")
+      ->type_name("LAYER")
+      ->allow_extra_args(false);
+  app.add_flag("--only", options->only_named_layers, "Draw just the layers named by --layer");
+  app.add_option("--screenshot", options->screenshot, "Save a PNG of the window when all is loaded, and quit");
+  return [options] { return runView(*options); };
+}
+
+}  // namespace stillframe::cli

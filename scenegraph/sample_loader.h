@@ -9,6 +9,7 @@
 
 #include "scenegraph/latest_job.h"
 #include "scenegraph/layer.h"
+#include "scenegraph/sample_work.h"
 #include "scenegraph/status.h"
 #include "scenegraph/store/dataset.h"
 #include "scenegraph/store/tf_clock.h"
@@ -118,62 +119,8 @@ class SampleLoader {
   }
 
  private:
-  using Loaded = std::expected<std::shared_ptr<const Product>, Status>;
-  /// How far reference() has looked.
-  struct Scan {
-    std::size_t looked = 0;  ///< entries from the front
-    std::uint64_t last_sequence = 0;
-    std::shared_ptr<const Product> product;
-  };
-  /// What the workers read.
-  struct Shared {
-    std::shared_ptr<Dataset> dataset;
-    ObjectType type;
-    std::string topic_name;
-    std::string tag;
-    Convert convert;
-
-    [[nodiscard]] Loaded load(TopicId topic, const Entry& entry) const {
-      const auto fail = [&](StatusLevel level, const std::string& code, const std::string& message) {
-        return std::unexpected(
-            Status{level, code, "'" + topic_name + "' at " + timeText(entry.log_time) + ": " + message});
-      };
-      const auto object = dataset->store().decode(topic, entry);
-      if (!object) {
-        return fail(StatusLevel::Error, object.error().code, object.error().message);
-      }
-      if (object->type() != type) {
-        return fail(StatusLevel::Error, "WrongObject", "the decoder made another object than the topic announces");
-      }
-      auto converted = convert(*object, entry);
-      if (!converted) {
-        return fail(converted.error().level, converted.error().code, converted.error().message);
-      }
-      auto product = std::make_shared<const Product>(std::move(*converted));
-      dataset->cache().put(cacheKey(topic, entry, tag), product, product->byteSize());
-      return product;
-    }
-    [[nodiscard]] std::expected<std::shared_ptr<const Scan>, Status> scan(TopicId topic, std::size_t first,
-                                                                          std::size_t count,
-                                                                          const IsReference& accept) const {
-      auto scan = std::make_shared<Scan>();
-      scan->looked = first;
-      while (scan->looked < count && scan->product == nullptr) {
-        const auto entry = dataset->store().at(topic, scan->looked);
-        if (!entry) {
-          break;
-        }
-        ++scan->looked;
-        scan->last_sequence = entry->sequence;
-        auto product = dataset->cache().template get<Product>(cacheKey(topic, *entry, tag));
-        if (product == nullptr) {
-          product = load(topic, *entry).value_or(nullptr);
-        }
-        scan->product = product != nullptr && accept(*product) ? std::move(product) : nullptr;
-      }
-      return scan;
-    }
-  };
+  using Scan = SampleScan<Product>;
+  using Shared = SampleWork<Product>;
 
   bool findTopic() {
     if (!topic_) {

@@ -1,6 +1,8 @@
 #include "tests/support/graph_dump.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <iomanip>
 #include <osg/BufferObject>
@@ -35,8 +37,10 @@ std::string summary(const osg::BufferData& data) {
   return text.str();
 }
 
-osg::ref_ptr<osgDB::Options> exactText() {
+osg::ref_ptr<osgDB::Options> exact(GraphFile file) {
   osg::ref_ptr<osgDB::Options> options = new osgDB::Options("precision 17");
+  // A stream has no extension to tell.
+  options->setPluginStringData("fileType", file == GraphFile::Text ? "Ascii" : "Binary");
   return options;
 }
 
@@ -44,7 +48,7 @@ osg::ref_ptr<osgDB::Options> exactText() {
 std::string osgText(const osg::Object& object) {
   auto* const writer = osgDB::Registry::instance()->getReaderWriterForExtension("osgt");
   std::ostringstream text;
-  if (writer == nullptr || !writer->writeObject(object, text, exactText()).success()) {
+  if (writer == nullptr || !writer->writeObject(object, text, exact(GraphFile::Text)).success()) {
     return std::string("not writable: ") + object.className();
   }
   return text.str();
@@ -211,13 +215,38 @@ std::string dumpGraph(osg::Node& root) {
   return dump.text();
 }
 
-osg::ref_ptr<osg::Node> writtenAndRead(const osg::Node& root) {
+osg::ref_ptr<osg::Node> writtenAndRead(const osg::Node& root, GraphFile file) {
   auto* const plugin = osgDB::Registry::instance()->getReaderWriterForExtension("osgt");
-  std::stringstream text;
-  if (plugin == nullptr || !plugin->writeNode(root, text, exactText()).success()) {
+  std::stringstream stream;
+  if (plugin == nullptr || !plugin->writeNode(root, stream, exact(file)).success()) {
     return nullptr;
   }
-  return plugin->readNode(text, exactText()).getNode();
+  return plugin->readNode(stream, exact(file)).getNode();
+}
+
+std::string firstRealDifference(const std::string& one, const std::string& other) {
+  std::istringstream words(one);
+  std::istringstream other_words(other);
+  std::string word;
+  std::string other_word;
+  while (words >> word) {
+    if (!(other_words >> other_word)) {
+      return word + " against the end";
+    }
+    if (word == other_word) {
+      continue;
+    }
+    double value = 0.0;
+    double other_value = 0.0;
+    const bool are_numbers =
+        std::from_chars(word.data(), word.data() + word.size(), value).ptr == word.data() + word.size() &&
+        std::from_chars(other_word.data(), other_word.data() + other_word.size(), other_value).ptr ==
+            other_word.data() + other_word.size();
+    if (!are_numbers || std::abs(value - other_value) > 2e-15 * std::abs(value)) {
+      return word + " against " + other_word;
+    }
+  }
+  return other_words >> other_word ? "the end against " + other_word : "";
 }
 
 std::string foreignClasses(osg::Node& root) {

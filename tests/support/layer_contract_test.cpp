@@ -9,6 +9,7 @@
 
 #include "scenegraph/scene.h"
 #include "tests/support/graph_dump.h"
+#include "tests/support/setting_texts.h"
 
 namespace stillframe::test {
 namespace {
@@ -17,7 +18,6 @@ using scenegraph::Executor;
 using scenegraph::Layer;
 using scenegraph::LayerType;
 using scenegraph::Scene;
-using scenegraph::SettingKind;
 using scenegraph::SettingSpec;
 using scenegraph::SettingTexts;
 using scenegraph::StatusLevel;
@@ -50,54 +50,6 @@ class CollectNodes : public osg::NodeVisitor {
   }
   std::vector<osg::observer_ptr<osg::Node>> nodes;
 };
-
-/// Texts that `spec` must take.
-std::vector<std::string> goodTexts(const SettingSpec& spec) {
-  std::vector<std::string> texts = spec.choices;
-  const bool is_bounded = spec.minimum < spec.maximum;
-  switch (spec.kind) {
-    case SettingKind::Bool:
-      return {"true", "false"};
-    case SettingKind::Int:
-      texts = is_bounded ? std::vector<std::string>{scenegraph::settingText(static_cast<std::int64_t>(spec.minimum)),
-                                                    scenegraph::settingText(static_cast<std::int64_t>(spec.maximum))}
-                         : std::vector<std::string>{"0", "7"};
-      break;
-    case SettingKind::Double:
-      texts = is_bounded ? std::vector<std::string>{scenegraph::settingText(spec.minimum),
-                                                    scenegraph::settingText(spec.maximum)}
-                         : std::vector<std::string>{"0.10000000000000001", "-1e-300"};
-      break;
-    case SettingKind::Text:
-      break;
-    case SettingKind::Color:
-      return {"#000000", "#ffffff", "#12345678"};
-  }
-  return texts;
-}
-
-/// Texts that `spec` must refuse.
-std::vector<std::string> badTexts(const SettingSpec& spec) {
-  std::vector<std::string> texts;
-  switch (spec.kind) {
-    case SettingKind::Bool:
-      return {"maybe", ""};
-    case SettingKind::Int:
-      texts = {"1.5", "x", "", "99999999999999999999"};
-      break;
-    case SettingKind::Double:
-      texts = {"nan", "inf", "1.0.0", "", "1e999"};
-      break;
-    case SettingKind::Text:
-      return spec.choices_only ? std::vector<std::string>{"no such choice"} : std::vector<std::string>{};
-    case SettingKind::Color:
-      return {"red", "#12345", "#gg0000", ""};
-  }
-  if (spec.minimum < spec.maximum) {
-    texts.push_back(scenegraph::settingText(spec.maximum * 2 + 1e6));
-  }
-  return texts;
-}
 
 class LayerContract : public testing::TestWithParam<LayerCase> {
  protected:
@@ -271,7 +223,7 @@ TEST_P(LayerContract, TakesEverySettingItAnnouncesAndRefusesOthers) {
       const std::string stored = layer.settings().at(spec.key);
       EXPECT_TRUE(layer.applySettings({{spec.key, stored}}).has_value()) << spec.key << "=" << stored;
       EXPECT_EQ(layer.settings().at(spec.key), stored) << "not a fixed point: " << spec.key << "=" << text;
-      if (spec.kind != SettingKind::Double) {
+      if (spec.kind != scenegraph::SettingKind::Double) {
         EXPECT_EQ(stored, text) << spec.key;
       }
     }
@@ -344,9 +296,12 @@ TEST_P(LayerContract, IsWrittenInStockClassesAndReadsBackTheSame) {
   for (const tf::TimePoint t : {tf::TimePoint{15_s}, tf::TimePoint{15_s + 600_ms}}) {
     scene->update(t);
     EXPECT_EQ(foreignClasses(scene->root()), "");
-    const auto read = writtenAndRead(scene->root());
-    ASSERT_NE(read, nullptr);
-    EXPECT_EQ(dumpGraph(*read), dumpGraph(scene->root()));
+    const auto from_bytes = writtenAndRead(scene->root(), GraphFile::Binary);
+    ASSERT_NE(from_bytes, nullptr);
+    EXPECT_EQ(dumpGraph(*from_bytes), dumpGraph(scene->root()));
+    const auto from_text = writtenAndRead(scene->root(), GraphFile::Text);
+    ASSERT_NE(from_text, nullptr);
+    EXPECT_EQ(firstRealDifference(dumpGraph(*from_text), dumpGraph(scene->root())), "");
   }
 }
 

@@ -3,11 +3,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "tf/time.h"
 
 namespace stillframe::ingest {
 
@@ -109,6 +112,12 @@ struct FooterRecord {
   std::uint64_t summary_start = 0;  ///< 0: no summary
   std::uint32_t summary_crc = 0;    ///< 0: none
 };
+
+/// A time of the file, unsigned there; beyond int64 it is taken as the last instant.
+[[nodiscard]] constexpr tf::TimePoint toTimePoint(std::uint64_t ns) noexcept {
+  constexpr auto kLast = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  return {static_cast<std::int64_t>(ns < kLast ? ns : kLast)};
+}
 
 [[nodiscard]] std::optional<SchemaRecord> parseSchema(std::span<const std::byte> content);
 [[nodiscard]] std::optional<ChannelRecord> parseChannel(std::span<const std::byte> content);

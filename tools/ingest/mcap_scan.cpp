@@ -70,10 +70,21 @@ void McapFile::scan() {
           index_.metadata_names.push_back(*std::move(name));
         }
         break;
+      case Opcode::MessageIndex:
+        if (const auto index = parseMessageIndex(content(kMaxDefinitionBytes));
+            !index || index->entries.size() + 6 != length) {
+          problems_.add("BadRecord",
+                        sentence("the message index at byte ", offset, " of '", file_->path(), "' is damaged"));
+        }
+        break;
       case Opcode::Footer:
         has_footer = true;
         break;
       default:
+        if (opcode > static_cast<std::uint8_t>(Opcode::DataEnd)) {
+          problems_.add("UnknownRecord", sentence("the record at byte ", offset, " of '", file_->path(),
+                                                  "' is of an unknown type ", unsigned{opcode}, "; it was skipped"));
+        }
         break;
     }
     offset += kRecordHeaderBytes + length;

@@ -114,6 +114,9 @@ std::expected<scenegraph::AnyObject, scenegraph::DecodeError> McapSource::decode
   if (channel == channels_[place.file].end() || channel->second.topic != topic.name) {
     return std::unexpected(misplaced(place, path, "a message of another topic"));
   }
+  if (toTimePoint(message->log_time) != entry.log_time) {
+    return std::unexpected(misplaced(place, path, "a message of another time"));
+  }
   if (channel->second.decoder.decoder == nullptr) {
     return std::unexpected(scenegraph::DecodeError{"Unsupported", channel->second.decoder.unsupported_reason});
   }

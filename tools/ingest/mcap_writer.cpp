@@ -185,7 +185,7 @@ void McapWriter::closeChunk() {
           .number(chunk_start_)
           .number(chunk_end_)
           .number(chunk.size)
-          .number(crc32(chunk_))
+          .number(options_.has_crc ? crc32(chunk_) : std::uint32_t{0})
           .string(toString(options_.compression))
           .number(chunk.packed_size)
           .raw(*packed)
@@ -316,7 +316,7 @@ McapWriter::Result McapWriter::finish() {
   RecordBuilder whole_footer = footer;
   whole_footer.number(std::uint32_t{0});
   const std::uint32_t crc = crc32(whole_footer.bytes().first(kFooterBytes - sizeof(std::uint32_t)), crc_);
-  footer.number(options_.has_summary ? crc : std::uint32_t{0});
+  footer.number(options_.has_summary && options_.has_crc ? crc : std::uint32_t{0});
   put(footer.bytes());
   put(std::as_bytes(std::span(kMcapMagic)));
   if (failure_.empty() && std::fclose(file_.release()) != 0) {

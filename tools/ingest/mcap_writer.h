@@ -26,6 +26,7 @@ struct McapWriterOptions {
   std::string profile = "ros2";
   bool has_message_index = true;
   bool has_summary = true;
+  bool has_crc = true;
 };
 
 /// Writes a valid MCAP: chunks, message indexes, summary with statistics, CRCs. One thread.

@@ -114,7 +114,7 @@ std::expected<std::vector<Section>, std::string> parseSections(std::string_view 
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = trimmed(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.empty() || line.starts_with('#') || line.starts_with("====")) {
+    if (line.empty() || line.starts_with('#') || line.find_first_not_of('=') == std::string_view::npos) {
       continue;
     }
     if (line.starts_with("MSG:")) {

@@ -1,7 +1,6 @@
 #include "tools/ingest/recording.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -23,11 +22,6 @@ using scenegraph::TopicId;
 
 constexpr std::size_t kEntriesPerAppend = 1 << 16;
 constexpr double kIndexShare = 0.3;  // of the progress; the transforms have the rest
-
-tf::TimePoint toTimePoint(std::uint64_t ns) {
-  return {
-      static_cast<std::int64_t>(std::min(ns, static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())))};
-}
 
 /// Counts and times of a topic as messages are found.
 struct Tally {

@@ -76,7 +76,7 @@ TEST_P(McapRoundTrip, ReadsBackWhatWasWritten) {
 }
 
 McapWriterOptions options(Compression compression, std::size_t chunk_bytes, bool has_index, bool has_summary) {
-  return {compression, chunk_bytes, "ros2", has_index, has_summary};
+  return {compression, chunk_bytes, "ros2", has_index, has_summary, true};
 }
 
 INSTANTIATE_TEST_SUITE_P(Variants, McapRoundTrip,

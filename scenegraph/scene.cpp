@@ -85,7 +85,16 @@ std::string Scene::fixedFrame() const {
     automatic_frame_ = automaticFixedFrame(*dataset_->transforms());
     automatic_frame_revision_ = revision;
   }
-  return automatic_frame_;
+  return automatic_frame_.empty() ? firstSourceFrame() : automatic_frame_;
+}
+
+std::string Scene::firstSourceFrame() const {
+  for (const auto& slot : layers_) {
+    if (std::string frame = slot->layer->isVisible() ? slot->layer->sourceFrame() : std::string(); !frame.empty()) {
+      return frame;
+    }
+  }
+  return {};
 }
 
 const LayerType* Scene::findType(std::string_view topic) const {
@@ -178,6 +187,14 @@ bool Scene::update(tf::TimePoint time) {
   frames_.setTick(inputs.fixed_frame, time);
   for (const auto& slot : layers_) {
     slot->layer->update(Tick{time});
+  }
+  if (const std::string settled = fixedFrame(); settled != inputs.fixed_frame) {
+    // Without transforms the frame is that of the data, which the layers know only now.
+    inputs.fixed_frame = settled;
+    frames_.setTick(settled, time);
+    for (const auto& slot : layers_) {
+      slot->layer->update(Tick{time});
+    }
   }
   const bool has_new_settings = noteSettings();
   const bool is_same = shown_ == inputs && !has_new_settings && !had_new_work && !had_pending;

@@ -41,7 +41,8 @@ class Scene {
   /// Frame chosen by hand, or nullopt to choose by itself: map, world, odom, ... else the root with the most frames.
   void setFixedFrame(std::optional<std::string> frame);
   [[nodiscard]] bool isFixedFrameExplicit() const noexcept { return chosen_frame_.has_value(); }
-  /// The frame in use; "" while the dataset has no frame and none was chosen.
+  /// The frame in use. In a dataset without transforms the frame of the first visible layer's data, so that the data
+  /// can be seen alone; "" when there is none either.
   [[nodiscard]] std::string fixedFrame() const;
 
   /// Adds a layer for a topic of the store, or a built-in by its type's name; the one that is there when it is. Refuses
@@ -73,6 +74,7 @@ class Scene {
   };
   [[nodiscard]] const LayerType* findType(std::string_view topic) const;
   [[nodiscard]] Status refusal(std::string_view topic) const;
+  [[nodiscard]] std::string firstSourceFrame() const;
   bool noteSettings();
 
   std::shared_ptr<Dataset> dataset_;

@@ -75,6 +75,25 @@ TEST_F(SceneTest, AddsALayerOncePerTopicAndForNewTopicsLater) {
   scene.removeLayer("/points");
 }
 
+TEST(SceneWithoutTransforms, ShowsTheDataInItsOwnFrameOnEveryPath) {
+  DatasetBuilder builder;
+  builder.topic("/points", ObjectType::PointCloud)
+      .at(1_s, CloudBuilder("lidar").xyz().point({1, 2, 3}).build())
+      .at(2_s, CloudBuilder("radar").xyz().point({4, 5, 6}).build());
+  (void)builder.build();
+  const auto executor = makeSynchronousExecutor();
+  Scene scene(builder.raw(), test::fakeTypes(), *executor);
+  scene.addDefaultLayers();
+  for (const auto& [time, frame] : {std::pair{1_s, "lidar"}, std::pair{2_s, "radar"}, std::pair{1_s, "lidar"}}) {
+    scene.update({time});
+    EXPECT_EQ(scene.fixedFrame(), frame);
+    EXPECT_EQ(scene.layers().front()->layer->status(), Status{});
+    EXPECT_TRUE(scene.boundsInFixed().valid());
+  }
+  scene.update({0_s});
+  EXPECT_EQ(scene.fixedFrame(), "");
+}
+
 TEST_F(SceneTest, RefusesUnknownAndUnsupportedTopicsByName) {
   const auto unknown = scene.addLayer("/point");
   ASSERT_FALSE(unknown);

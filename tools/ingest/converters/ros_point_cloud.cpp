@@ -58,6 +58,7 @@ scenegraph::AnyObject convert(const CloudRow& row, const MessageView& message) {
   cloud.row_step = row.row_step;
   cloud.is_bigendian = row.is_bigendian;
   cloud.is_dense = row.is_dense;
+  cloud.color_packing = scenegraph::ColorPacking::PclWord;
   for (const PointFieldRow& field : row.fields) {
     const bool is_known = field.datatype <= static_cast<std::uint32_t>(scenegraph::FieldType::Float64);
     cloud.fields.push_back(

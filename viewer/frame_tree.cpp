@@ -46,9 +46,9 @@ FrameTree::FrameTree(QWidget* parent) : QWidget(parent) {
   tree_ = new QTreeWidget(splitter);
   tree_->setObjectName(QStringLiteral("frames"));
   tree_->setColumnCount(kColumns);
-  tree_->setHeaderLabels({tr("Frame"), tr("Age"), tr("Samples"), tr("Rate")});
+  tree_->setHeaderLabels({tr("Frame"), tr("Age"), tr("Count"), tr("Hz")});
   tree_->setUniformRowHeights(true);
-  tree_->setIndentation(12);
+  tree_->setIndentation(10);
   tree_->setFrameShape(QFrame::NoFrame);
   tree_->header()->setStretchLastSection(false);
   tree_->header()->setSectionResizeMode(kFrame, QHeaderView::Stretch);
@@ -177,7 +177,7 @@ void FrameTree::showSamples() {
     const double span_s = tf::secondsBetween(edge->first, edge->last);
     setTextIfNew(row, kRate,
                  edge->samples > 1 && span_s > 0.0
-                     ? QString::number(static_cast<double>(edge->samples - 1) / span_s, 'f', 1) + tr(" Hz")
+                     ? QString::number(static_cast<double>(edge->samples - 1) / span_s, 'f', 1)
                      : QString());
     const bool is_disabled = !in_force && !buffer.isStaticForAllTime();
     row.setForeground(kFrame, is_disabled ? palette().brush(QPalette::Disabled, QPalette::Text) : QBrush());

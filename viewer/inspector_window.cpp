@@ -10,6 +10,7 @@
 #include <QShortcut>
 #include <QSplitter>
 #include <QStatusBar>
+#include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <thread>
@@ -23,7 +24,7 @@ namespace stillframe::viewer {
 namespace {
 
 constexpr int kProgressSteps = 1000;
-constexpr int kFrameTreeWidth = 320;
+constexpr int kFrameTreeWidth = 310;
 
 std::vector<std::filesystem::path> localFiles(const QMimeData& data) {
   std::vector<std::filesystem::path> files;
@@ -54,9 +55,15 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   view_splitter_ = new QSplitter(Qt::Horizontal, central);
   view_splitter_->setChildrenCollapsible(false);
   layout->addWidget(view_splitter_, 1);
-  time_bar_ = new TimeBar(central);
-  layout->addWidget(time_bar_);
   setCentralWidget(central);
+
+  auto* time_tool_bar = new QToolBar(tr("Time"), this);  // a tool bar, so that it is as wide as the window
+  time_tool_bar->setObjectName(QStringLiteral("timeToolBar"));
+  time_tool_bar->setMovable(false);
+  time_tool_bar->toggleViewAction()->setEnabled(false);
+  time_bar_ = new TimeBar(time_tool_bar);
+  time_tool_bar->addWidget(time_bar_);
+  addToolBar(Qt::BottomToolBarArea, time_tool_bar);
 
   auto* dock = new QDockWidget(tr("Frames"), this);
   dock->setObjectName(QStringLiteral("framesDock"));
@@ -185,10 +192,12 @@ ViewPanel& InspectorWindow::addView(ViewPanel* like, Qt::Orientation orientation
   equal.fill(1000, splitter->count());
   splitter->setSizes(equal);
   fillView(*panel);
+  ViewState state = like == nullptr ? panel->state() : like->state();
+  state.shows_layers = views_.size() == 1 && options_.views <= 1;  // side by side, the picture needs the room
   if (like != nullptr) {
     like->show();
-    panel->setState(like->state());
   }
+  panel->setState(state);
   return *panel;
 }
 

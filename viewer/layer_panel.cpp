@@ -5,6 +5,8 @@
 #include <QLocale>
 #include <QPainter>
 #include <QSignalBlocker>
+#include <QStyledItemDelegate>
+#include <algorithm>
 
 #include "viewer/setting_editor.h"
 
@@ -38,6 +40,35 @@ QIcon dotIcon(const QColor& color) {
   return QIcon(pixmap);
 }
 
+/// Lets rows grow with their status, which is a sentence: QTreeView itself reckons with one line.
+class StatusDelegate : public QStyledItemDelegate {
+ public:
+  explicit StatusDelegate(QTreeWidget& tree) : QStyledItemDelegate(&tree), tree_(tree) {}
+
+  [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    QSize hint = QStyledItemDelegate::sizeHint(option, index);
+    if (index.column() == 1 && !index.parent().isValid()) {
+      constexpr int kIconAndMargins = 30;
+      const int width = std::max(40, tree_.columnWidth(1) - kIconAndMargins);
+      const QRect text = option.fontMetrics.boundingRect(QRect(0, 0, width, 10'000), Qt::TextWordWrap,
+                                                         index.data(Qt::DisplayRole).toString());
+      hint.setHeight(std::max(hint.height(), text.height() + 4));
+    }
+    return hint;
+  }
+
+ protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
+    QStyledItemDelegate::initStyleOption(option, index);
+    if (index.column() == 0) {
+      option->features &= ~QStyleOptionViewItem::WrapText;
+    }
+  }
+
+ private:
+  QTreeWidget& tree_;
+};
+
 }  // namespace
 
 QString statusLine(const scenegraph::Layer& layer) {
@@ -64,7 +95,11 @@ LayerPanel::LayerPanel(QWidget* parent) : QTreeWidget(parent) {
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   header()->setSectionResizeMode(0, QHeaderView::Interactive);
   header()->setStretchLastSection(true);
-  header()->resizeSection(0, 150);
+  header()->resizeSection(0, 128);
+  setTextElideMode(Qt::ElideMiddle);
+  setWordWrap(true);
+  setItemDelegate(new StatusDelegate(*this));
+  connect(header(), &QHeaderView::sectionResized, this, &LayerPanel::scheduleDelayedItemsLayout);
   connect(this, &QTreeWidget::itemChanged, this, &LayerPanel::onItemChanged);
 }
 

@@ -29,6 +29,14 @@ osg::BoundingBoxd atLeast(osg::BoundingBoxd box, double radius_m) {
   return box;
 }
 
+/// Whether a layer of a topic, not only a built-in, draws something.
+bool hasDataInSight(const scenegraph::Scene& scene) {
+  return std::ranges::any_of(scene.layers(), [](const auto& slot) {
+    return slot->type->consumes != scenegraph::ObjectType::None && slot->layer->isVisible() &&
+           slot->layer->boundsInFixed().valid();
+  });
+}
+
 QLabel* makeOverlay(QWidget* parent) {
   auto* label = new QLabel(parent);
   label->setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -66,6 +74,7 @@ void SceneWidget::setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scene
   }
   is_camera_touched_ = false;
   wants_framing_ = true;
+  has_framed_data_ = false;
   requestTick();
   update();
 }
@@ -153,6 +162,10 @@ void SceneWidget::frameOrigin(const std::string& frame) {
 }
 
 void SceneWidget::frameIfWanted() {
+  // Recordings often begin before their first cloud: the default view waits for what there is to see.
+  if (!is_camera_touched_ && !has_framed_data_ && hasDataInSight(*scene_)) {
+    wants_framing_ = true;
+  }
   if (!wants_framing_ || scene_->isPending()) {
     return;
   }
@@ -161,6 +174,7 @@ void SceneWidget::frameIfWanted() {
     return;
   }
   wants_framing_ = false;
+  has_framed_data_ = hasDataInSight(*scene_);
   camera_.setState({});
   camera_.frame(atLeast(box, kSmallestFramedRadiusM), aspect());
   update();

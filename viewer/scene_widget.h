@@ -58,7 +58,8 @@ class SceneWidget : public QOpenGLWidget {
   [[nodiscard]] QString problem() const;
 
  public Q_SLOTS:
-  /// The default direction, all data in sight; again when data arrives, until the camera is moved by hand.
+  /// The default direction, all data in sight; once more when the first data of a topic comes into sight, unless the
+  /// camera was moved by hand before.
   void home();
   /// All data in sight from the present direction.
   void frameAll();
@@ -105,6 +106,7 @@ class SceneWidget : public QOpenGLWidget {
   scenegraph::Color background_{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
   tf::TimePoint time_;
   bool wants_framing_ = true;
+  bool has_framed_data_ = false;
   bool is_camera_touched_ = false;
   bool is_context_usable_ = false;
   std::uint64_t frames_drawn_ = 0;

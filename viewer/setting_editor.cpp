@@ -36,6 +36,13 @@ T valueOr(const SettingSpec& spec, const std::string& text, T fallback) {
   return typed == nullptr ? fallback : *typed;
 }
 
+/// Shows 2 as "2", not as "2.0000".
+class NumberBox : public QDoubleSpinBox {
+ public:
+  using QDoubleSpinBox::QDoubleSpinBox;
+  [[nodiscard]] QString textFromValue(double value) const override { return locale().toString(value, 'g', 7); }
+};
+
 QColor toQColor(const scenegraph::Color& color) { return QColor::fromRgbF(color.r, color.g, color.b, color.a); }
 
 }  // namespace
@@ -112,9 +119,10 @@ QWidget* SettingEditor::makeDouble() {
   auto* holder = new QWidget(this);
   auto* layout = new QHBoxLayout(holder);
   layout->setContentsMargins(0, 0, 0, 0);
-  auto* box = new QDoubleSpinBox(holder);
+  auto* box = new NumberBox(holder);
   box->setKeyboardTracking(false);
-  box->setDecimals(4);
+  box->setDecimals(6);
+  box->setGroupSeparatorShown(false);
   box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   const double lowest = isBounded(spec_) ? spec_.minimum : -1e12;
   const double highest = isBounded(spec_) ? spec_.maximum : 1e12;

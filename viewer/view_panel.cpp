@@ -14,7 +14,7 @@
 namespace stillframe::viewer {
 namespace {
 
-constexpr int kLayerPanelWidth = 300;
+constexpr int kLayerPanelWidth = 270;
 
 }  // namespace
 

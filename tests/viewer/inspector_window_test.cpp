@@ -107,7 +107,7 @@ TEST_F(InspectorWindowTest, BadFileAtStartLeavesAnEmptyWindowThatStillWorks) {
 TEST_F(InspectorWindowTest, DroppedFileIsOpened) {
   open({});
   QMimeData data;
-  data.setUrls({QUrl::fromLocalFile(QStringLiteral("/robot.mcap"))});
+  data.setUrls({QUrl::fromLocalFile(QStringLiteral("/recordings/robot.mcap"))});
   QDragEnterEvent enter({10, 10}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QCoreApplication::sendEvent(window_.get(), &enter);
   EXPECT_TRUE(enter.isAccepted());

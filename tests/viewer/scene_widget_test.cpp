@@ -130,6 +130,19 @@ TEST_F(SceneWidgetTest, MouseChangesTheCameraAsDocumented) {
   EXPECT_EQ(widget_->camera().state(), start);
 }
 
+TEST_F(SceneWidgetTest, DefaultViewWaitsForTheFirstData) {
+  widget_->setTime(TimePoint{0});
+  show();
+  const auto axes_only = widget_->camera().state();
+  widget_->setTime(TimePoint{1_s});
+  settle();
+  const auto with_cloud = widget_->camera().state();
+  EXPECT_NE(with_cloud.radius_m, axes_only.radius_m);
+  widget_->setTime(TimePoint{9_s});
+  settle();
+  EXPECT_EQ(widget_->camera().state(), with_cloud) << "once: scrubbing must not move the camera";
+}
+
 TEST_F(SceneWidgetTest, HoverNamesTheFrameUnderTheCursor) {
   show();
   QString hovered;

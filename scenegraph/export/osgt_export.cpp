@@ -60,28 +60,6 @@ std::string layerText(const std::string& topic, const SettingTexts& settings) {
   return text;
 }
 
-osg::ref_ptr<osg::Node> makeExportRoot(const osg::Group& root, const ExportInfo& info) {
-  Copies copies;
-  osg::ref_ptr<osg::Node> copy = copyVisible(root, copies);
-  // The root's own state and descriptions are shared with the copy so far: the file's are made from copies of them.
-  osg::ref_ptr<osg::StateSet> state =
-      root.getStateSet() == nullptr ? new osg::StateSet
-                                    : static_cast<osg::StateSet*>(root.getStateSet()->clone(osg::CopyOp::SHALLOW_COPY));
-  state->addUniform(new osg::Uniform{"u_viewport_height_px", static_cast<float>(info.viewport_height_px)});
-  copy->setStateSet(state);
-  copy->setUserDataContainer(nullptr);
-  for (const std::string& description : root.getDescriptions()) {
-    copy->addDescription(description);
-  }
-  copy->addDescription("time_ns=" + std::to_string(info.time.ns));
-  copy->addDescription("fixed_frame=" + info.fixed_frame);
-  copy->addDescription("source=" + info.source);
-  for (const auto& [topic, settings] : info.layers) {
-    copy->addDescription(layerText(topic, settings));
-  }
-  return copy;
-}
-
 /// Writes a double so that stock OSG reads the same bits. Its reader (osg::asciiToDouble, 3.6.5) sums digits in double
 /// and is wrong by up to 5 ulp for 17 digits; so the text is tried, and where it reads as a neighbour, a mantissa and
 /// exponent are looked for that its own rounding turns into the value.
@@ -168,6 +146,28 @@ std::expected<void, std::string> writeNode(const osg::Node& node, bool is_text, 
 
 }  // namespace
 
+osg::ref_ptr<osg::Node> makeExportGraph(const osg::Group& root, const ExportInfo& info) {
+  Copies copies;
+  osg::ref_ptr<osg::Node> copy = copyVisible(root, copies);
+  // The root's own state and descriptions are shared with the copy so far: the file's are made from copies of them.
+  osg::ref_ptr<osg::StateSet> state =
+      root.getStateSet() == nullptr ? new osg::StateSet
+                                    : static_cast<osg::StateSet*>(root.getStateSet()->clone(osg::CopyOp::SHALLOW_COPY));
+  state->addUniform(new osg::Uniform{"u_viewport_height_px", static_cast<float>(info.viewport_height_px)});
+  copy->setStateSet(state);
+  copy->setUserDataContainer(nullptr);
+  for (const std::string& description : root.getDescriptions()) {
+    copy->addDescription(description);
+  }
+  copy->addDescription("time_ns=" + std::to_string(info.time.ns));
+  copy->addDescription("fixed_frame=" + info.fixed_frame);
+  copy->addDescription("source=" + info.source);
+  for (const auto& [topic, settings] : info.layers) {
+    copy->addDescription(layerText(topic, settings));
+  }
+  return copy;
+}
+
 std::expected<void, Status> exportGraph(const osg::Group& root, const ExportInfo& info,
                                         const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
@@ -181,7 +181,7 @@ std::expected<void, Status> exportGraph(const osg::Group& root, const ExportInfo
     status.message = "cannot export to " + path.string() + ": " + status.message;
     return std::unexpected(status);
   }
-  const osg::ref_ptr<osg::Node> copy = makeExportRoot(root, info);
+  const osg::ref_ptr<osg::Node> copy = makeExportGraph(root, info);
   return replaceFile(
       path, [&](const std::filesystem::path& beside) { return writeNode(*copy, extension == ".osgt", beside); });
 }

@@ -4,6 +4,7 @@
 #include <expected>
 #include <filesystem>
 #include <osg/Group>
+#include <osg/ref_ptr>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,10 @@ struct ExportInfo {
   std::vector<std::pair<std::string, SettingTexts>> layers;  ///< layer=TOPIC:key=value,... one string a layer
   int viewport_height_px = 720;                              ///< for sizes in metres; a stock viewer does not tell
 };
+
+/// What is visible beneath `root` as a graph of its own that stock OpenSceneGraph draws, with the descriptions above.
+/// Nodes of mask 0 are left out; drawables and state are shared with `root`.
+[[nodiscard]] osg::ref_ptr<osg::Node> makeExportGraph(const osg::Group& root, const ExportInfo& info);
 
 /// Writes what is visible beneath `root` as .osgt (text, 17 digits) or .osgb (binary) for a stock osgviewer.
 ///

@@ -31,8 +31,10 @@ int run(int argc, char** argv) {
   add("render", "Draw one instant to a PNG or EXR file, without a display", addRenderCommand);
   add("info", "List topics, frames and problems of a recording", addInfoCommand);
   add("tf", "Look up one transform", addTfCommand);
+  add("export", "Write what render shows as an OpenSceneGraph file", addExportCommand);
   add("sample", "Write a synthetic recording", addSampleCommand);
   add("bench", "Measure this machine and this build", addBenchCommand);
+  add("accuracy", "Measure error against run time", addAccuracyCommand);
 
   try {
     app.parse(argc, argv);

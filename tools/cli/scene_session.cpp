@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/trigonometric.hpp>
+#include <iterator>
 
 #include "nodes/registry.h"
 #include "scenegraph/camera/orbit_camera.h"
@@ -73,14 +74,18 @@ Result<void> SceneSession::chooseFrame() {
   std::vector<std::string> known = recording_->dataset()->transforms()->frames();
   std::vector<std::string> of_data;
   for (const auto& slot : scene_->layers()) {
-    if (const std::string frame = slot->layer->sourceFrame(); !frame.empty()) {
+    const bool is_of_topic = slot->type->consumes != scenegraph::ObjectType::None;  // the grid lies in any fixed frame
+    if (const std::string frame = slot->layer->sourceFrame(); is_of_topic && !frame.empty()) {
       of_data.emplace_back(tf::stripLeadingSlashes(frame));
     }
   }
   if (options_.fixed_frame) {
     const std::string frame(tf::stripLeadingSlashes(*options_.fixed_frame));
     if (std::ranges::find(known, frame) == known.end() && std::ranges::find(of_data, frame) == of_data.end()) {
-      known.insert(known.end(), of_data.begin(), of_data.end());
+      const std::vector<std::string> of_transforms = known;
+      std::ranges::copy_if(of_data, std::back_inserter(known), [&](const auto& name) {
+        return std::ranges::find(of_transforms, name) == of_transforms.end();
+      });
       const auto near = scenegraph::nearNames(frame, known);
       return usageError(options_.recording.file + ": there is no frame '" + frame + "'" +
                         (known.empty()  ? "; the recording has none"
@@ -135,6 +140,20 @@ scenegraph::CameraView SceneSession::camera() const {
   scenegraph::CameraView view = orbit.view();
   view.eye_from_fixed = scenegraph::lookAt(*options_.eye, options_.look_at.value_or(state.focal_point), {0, 0, 1});
   return view;
+}
+
+scenegraph::ExportInfo SceneSession::exportInfo() const {
+  scenegraph::ExportInfo info{.time = time_,
+                              .fixed_frame = scene_->fixedFrame(),
+                              .source = options_.recording.file,
+                              .layers = {},
+                              .viewport_height_px = options_.size.height_px};
+  for (const auto& slot : scene_->layers()) {
+    if (slot->layer->isVisible()) {
+      info.layers.emplace_back(slot->topic, slot->layer->settings());
+    }
+  }
+  return info;
 }
 
 Result<void> applyLayerSettings(LayerSlot& slot, scenegraph::SettingTexts settings) {

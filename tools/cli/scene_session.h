@@ -5,6 +5,7 @@
 
 #include "scenegraph/camera/camera.h"
 #include "scenegraph/executor.h"
+#include "scenegraph/export/osgt_export.h"
 #include "scenegraph/scene.h"
 #include "tools/cli/view_options.h"
 #include "tools/ingest/recording.h"
@@ -23,6 +24,8 @@ class SceneSession {
   void showTime(tf::TimePoint time);
   /// From the eye that was asked for, else one that sees all of it from above at an angle.
   [[nodiscard]] scenegraph::CameraView camera() const;
+  /// What an exported file says of itself.
+  [[nodiscard]] scenegraph::ExportInfo exportInfo() const;
 
  private:
   explicit SceneSession(ViewOptions options) : options_(std::move(options)) {}

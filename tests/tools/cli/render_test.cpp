@@ -1,0 +1,159 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "program.h"
+#include "scenegraph/export/picture_io.h"
+
+namespace stillframe::cli {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+void expectOneLine(const Outcome& run) {
+  EXPECT_THAT(run.err, StartsWith("stillframe: "));
+  EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
+}
+
+std::map<std::string, nlohmann::json> byTopic(const nlohmann::json& picture) {
+  std::map<std::string, nlohmann::json> layers;
+  for (const auto& layer : picture["layers"]) {
+    layers[layer["topic"]] = layer;
+  }
+  return layers;
+}
+
+TEST(RenderCommand, DrawsTheSampleAndSaysWhat) {
+  const TestFolder folder;
+  const Outcome drawn = run(folder.path(), {"render", folder.makeSample(), "--out", "a.png", "--time", "+1", "--size",
+                                            "320x200", "--fixed-frame", "odom", "--json"});
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  const auto said = drawn.json();
+  EXPECT_EQ(said["size"], (std::vector<int>{320, 200}));
+  EXPECT_EQ(said["time_ns"], kSampleStart_ns + 1'000'000'000);
+  EXPECT_EQ(said["fixed_frame"], "odom");
+  EXPECT_GT(said["frame_ms"].get<double>(), 0.0);
+  EXPECT_EQ(said["passes"][0], "scene");
+  const auto layers = byTopic(said);
+  ASSERT_EQ(layers.size(), 4U) << said;
+  const auto& lidar = layers.at("/lidar/points");
+  EXPECT_EQ(lidar["frame"], "lidar_link");
+  EXPECT_EQ(lidar["visible"], true);
+  EXPECT_EQ(lidar["status"]["level"], "ok") << lidar;
+  EXPECT_EQ(lidar["counts"]["points"], kSamplePoints);
+  EXPECT_GT(layers.at("/camera/points")["counts"]["points"], 1000);
+  EXPECT_EQ(layers.at("tf")["status"]["level"], "ok");
+
+  const auto picture = scenegraph::readPng(folder / "a.png");
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->width, 320);
+  EXPECT_EQ(picture->height, 200);
+  std::size_t drawn_pixels = 0;
+  for (std::size_t i = 3; i < picture->rgb.size(); i += 3) {
+    drawn_pixels += std::equal(picture->rgb.begin(), picture->rgb.begin() + 3,
+                               picture->rgb.begin() + static_cast<std::ptrdiff_t>(i))
+                        ? 0
+                        : 1;
+  }
+  EXPECT_GT(drawn_pixels, 1000U);
+}
+
+TEST(RenderCommand, DrawsJustTheNamedLayers) {
+  const TestFolder folder;
+  const std::string sample = folder.makeSample();
+  const Outcome drawn = run(folder.path(), {"render", sample, "--out", "a.exr", "--only", "--layer", "/lidar/points",
+                                            "--layer", "grid", "--size", "64x64", "--json"});
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  const auto layers = byTopic(drawn.json());
+  EXPECT_EQ(layers.size(), 2U);
+  EXPECT_TRUE(layers.contains("grid") && layers.contains("/lidar/points"));
+  EXPECT_EQ(run(folder.path(), {"render", sample, "--out", "a.png", "--only"}).code, 2);
+}
+
+TEST(RenderCommand, HidesALayerThatIsToBeHidden) {
+  const TestFolder folder;
+  const Outcome drawn = run(folder.path(), {"render", folder.makeSample(), "--out", "a.png", "--layer",
+                                            "grid:visible=false", "--size", "64x64", "--json"});
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_EQ(byTopic(drawn.json()).at("grid")["visible"], false);
+}
+
+TEST(RenderCommand, LooksFromWhereItIsTold) {
+  const TestFolder folder;
+  const std::string sample = folder.makeSample();
+  const auto picture = [&](const std::string& eye, const std::string& target) {
+    const Outcome drawn = run(folder.path(), {"render", sample, "--out", "a.png", "--eye", eye, "--look-at", target,
+                                              "--size", "64x64", "--background", "#ffffff"});
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    return scenegraph::readPng(folder / "a.png").value();
+  };
+  const auto above = picture("0,0,40", "0,0,0");
+  EXPECT_EQ(above, picture("0,0,40", "0,0,0"));
+  EXPECT_NE(above, picture("30,5,10", "0,0,0"));
+  const auto away = picture("0,0,40", "0,0,80");
+  EXPECT_EQ(std::ranges::count(away.rgb, 255), std::ptrdiff_t(away.rgb.size()));
+}
+
+TEST(RenderCommand, RefusesWhatIsNotThere) {
+  const TestFolder folder;
+  const std::string sample = folder.makeSample();
+  const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes{
+      {{"--fixed-frame", "mop"}, "'map'"},
+      {{"--fixed-frame", "nothing_like_it"}, "base_link"},
+      {{"--layer", "/lidar/point"}, "/lidar/points"},
+      {{"--layer", "/tf"}, "/tf"},
+      {{"--layer", "/lidar/points:sise=3"}, "sise"},
+      {{"--layer", "/lidar/points:sise"}, "/lidar/points"},
+      {{"--time", std::to_string(kSampleStart_ns - 1)}, std::to_string(kSampleStart_ns)},
+      {{"--time", std::to_string(kSampleEnd_ns + 1)}, std::to_string(kSampleEnd_ns)},
+      {{"--time", "+2.000000001"}, std::to_string(kSampleEnd_ns)},
+      {{"--time", "0"}, "outside"},
+      {{"--size", "0x0"}, "0x0"},
+      {{"--size", "100000x100000"}, "100000x100000"},
+      {{"--eye", "1,2"}, "--eye"},
+      {{"--look-at", "nan,0,0"}, "--look-at"},
+      {{"--fov", "180"}, "--fov"},
+      {{"--background", "red"}, "red"},
+  };
+  for (const auto& [options, named] : mistakes) {
+    for (const char* command : {"render", "export"}) {
+      std::vector<std::string> arguments{command, sample, "--out",
+                                         std::string(command) == "render" ? "a.png" : "a.osgt"};
+      arguments.insert(arguments.end(), options.begin(), options.end());
+      const Outcome refused = run(folder.path(), arguments);
+      EXPECT_EQ(refused.code, 2) << testing::PrintToString(arguments);
+      expectOneLine(refused);
+      EXPECT_THAT(refused.err, HasSubstr(named));
+    }
+  }
+}
+
+TEST(RenderCommand, SaysWhyAPictureCannotBeWritten) {
+  const TestFolder folder;
+  const std::string sample = folder.makeSample();
+  for (const char* out : {"no/such/folder/a.png", "no/such/folder/a.exr"}) {
+    const Outcome failed = run(folder.path(), {"render", sample, "--out", out, "--size", "16x16"});
+    EXPECT_EQ(failed.code, 1) << out;
+    expectOneLine(failed);
+    EXPECT_THAT(failed.err, HasSubstr(out));
+  }
+  EXPECT_EQ(run(folder.path(), {"render", sample, "--out", "a.jpg"}).code, 2);
+  EXPECT_EQ(run(folder.path(), {"export", sample, "--out", "a.obj"}).code, 2);
+  EXPECT_EQ(run(folder.path(), {"export", sample, "--out", "no/such/a.osgt"}).code, 1);
+}
+
+TEST(RenderCommand, ExportsTheSample) {
+  const TestFolder folder;
+  const std::string sample = folder.makeSample();
+  for (const char* out : {"a.osgt", "a.osgb"}) {
+    const Outcome written = run(folder.path(), {"export", sample, "--out", out, "--time", "+0.5"});
+    EXPECT_EQ(written.code, 0) << written.err;
+    EXPECT_GT(std::filesystem::file_size(folder / out), 10'000U);
+  }
+}
+
+}  // namespace
+}  // namespace stillframe::cli

@@ -1,0 +1,66 @@
+#include <osg/Notify>
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
+#include <osgDB/ReaderWriter>
+#include <osgDB/Registry>
+
+#include "scenegraph/export/osgt_export.h"
+#include "tools/cli/scene_session.h"
+#include "tools/osgplugin/option_string.h"
+
+namespace stillframe::osgplugin {
+
+/// Reads one instant of a recording as the scene that `stillframe export` would write: stock classes only.
+class ReaderWriterMcap final : public osgDB::ReaderWriter {
+ public:
+  ReaderWriterMcap() {
+    supportsExtension("mcap", "Recordings of robots");
+    supportsOption("time=T", "Nanoseconds, +SECONDS from the start, start, or end (default)");
+    supportsOption("fixed_frame=F", "Frame that stands still; default: map, world, odom, ...");
+    supportsOption("layers=L;L", "Draw just these layers, each TOPIC[:key=value,...]");
+    supportsOption("layer=L", "Settings of one layer; may be repeated");
+    supportsOption("tf_time=auto|header|log", "Clock of the transforms");
+    supportsOption("static_always", "Static transforms hold for all time");
+    supportsOption("height=PIXELS", "Height of the window, for points whose size is in metres");
+  }
+
+  const char* className() const override { return "MCAP recordings"; }
+
+  ReadResult readObject(const std::string& name, const osgDB::Options* options) const override {
+    return readNode(name, options);
+  }
+
+  ReadResult readNode(const std::string& name, const osgDB::Options* options) const override {
+    if (!acceptsExtension(osgDB::getLowerCaseFileExtension(name))) {
+      return ReadResult::FILE_NOT_HANDLED;
+    }
+    const std::string file = osgDB::findDataFile(name, options);
+    if (file.empty()) {
+      return ReadResult::FILE_NOT_FOUND;
+    }
+    auto parsed = parseOptionString(options != nullptr ? options->getOptionString() : std::string());
+    if (!parsed) {
+      return fail(parsed.error());
+    }
+    for (const std::string& word : parsed->unknown) {
+      OSG_NOTICE << "osgdb_mcap: option '" << word << "' means nothing here" << std::endl;
+    }
+    parsed->view.recording.file = file;
+    auto session = cli::SceneSession::make(parsed->view);
+    if (!session) {
+      return fail(session.error());
+    }
+    return scenegraph::makeExportGraph((*session)->scene().root(), (*session)->exportInfo()).release();
+  }
+
+ private:
+  static ReadResult fail(const cli::CliError& error) {
+    OSG_WARN << "osgdb_mcap: " << cli::printable(error.message) << std::endl;
+    return ReadResult(error.message);
+  }
+};
+
+}  // namespace stillframe::osgplugin
+
+using stillframe::osgplugin::ReaderWriterMcap;
+REGISTER_OSGPLUGIN(mcap, ReaderWriterMcap)

@@ -183,9 +183,6 @@ void PointCloudLayer::paint(const std::optional<tf::RigidTransform>& fixed_from_
     setColorArrays();
   }
   state_.setMode(choice_.mode);
-  // What the mode does not use must not remember the settings of before.
-  state_.setValueMap({.scale = 0.0, .bias = 0.0});
-  state_.setAxisMap({});
   const auto directed = [&](RangeMap map) {
     return settings_.reverse_colormap ? RangeMap{-map.scale, 1.0 - map.bias} : map;
   };

@@ -31,7 +31,7 @@ function(stillframe_test name)
     add_test(NAME ${STILLFRAME_TEST_PREFIX}${name} COMMAND ${name})
     set_tests_properties(${STILLFRAME_TEST_PREFIX}${name} PROPERTIES LABELS "${ARG_LABELS}" ENVIRONMENT "${ARG_ENV}" TIMEOUT 600)
   else()
-    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
                          PROPERTIES LABELS "${ARG_LABELS}" ENVIRONMENT "${ARG_ENV}" TIMEOUT 300)
   endif()
 endfunction()

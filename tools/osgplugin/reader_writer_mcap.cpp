@@ -1,3 +1,4 @@
+#include <osg/CopyOp>
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
@@ -50,7 +51,10 @@ class ReaderWriterMcap final : public osgDB::ReaderWriter {
     if (!session) {
       return fail(session.error());
     }
-    return scenegraph::makeExportGraph((*session)->scene().root(), (*session)->exportInfo()).release();
+    // The layers empty their drawables when the session ends: the graph that is handed out has its own.
+    const auto graph = scenegraph::makeExportGraph((*session)->scene().root(), (*session)->exportInfo());
+    return static_cast<osg::Node*>(graph->clone(osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_DRAWABLES |
+                                                osg::CopyOp::DEEP_COPY_ARRAYS | osg::CopyOp::DEEP_COPY_PRIMITIVES));
   }
 
  private:

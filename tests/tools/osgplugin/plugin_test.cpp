@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/NodeVisitor>
 #include <osgDB/ReadFile>
@@ -28,8 +30,12 @@ class Census : public osg::NodeVisitor {
         frame != nullptr && !node.getName().empty()) {
       frames[node.getName()] = frame->getMatrix();
     }
+    if (const osg::Geometry* const geometry = node.asGeometry(); geometry != nullptr && geometry->getVertexArray()) {
+      most_vertices = std::max(most_vertices, geometry->getVertexArray()->getNumElements());
+    }
     traverse(node);
   }
+  unsigned most_vertices = 0;
   std::map<std::string, int> libraries;
   std::map<std::string, osg::Matrixd> frames;
 };
@@ -59,6 +65,7 @@ TEST_F(Plugin, IsFoundByStockOpenSceneGraph) {
   result.getNode()->accept(census);
   ASSERT_TRUE(census.frames.contains("lidar_link"));
   EXPECT_EQ(census.frames["lidar_link"], osg::Matrixd::translate(0.05, 0.0, 0.95));
+  EXPECT_GE(census.most_vertices, 500U);  // the cloud outlives what made it
   EXPECT_THAT(result.getNode()->getDescriptions(),
               testing::IsSupersetOf({"time_ns=1700000000501000000", "fixed_frame=base_link"}));
 }

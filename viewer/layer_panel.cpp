@@ -62,6 +62,8 @@ class StatusDelegate : public QStyledItemDelegate {
     QStyledItemDelegate::initStyleOption(option, index);
     if (index.column() == 0) {
       option->features &= ~QStyleOptionViewItem::WrapText;
+    } else {
+      option->textElideMode = Qt::ElideNone;
     }
   }
 
@@ -76,13 +78,18 @@ QString statusLine(const scenegraph::Layer& layer) {
     return {};
   }
   const scenegraph::Status& status = layer.status();
-  if (status.level != StatusLevel::Ok || !status.message.empty()) {
+  if (status.level >= StatusLevel::Warn) {
     return QString::fromStdString(status.message.empty() ? status.code : status.message);
   }
-  for (const auto& [name, count] : layer.counts()) {
-    return QLocale().toString(static_cast<qulonglong>(count)) + QLatin1Char(' ') + QString::fromStdString(name);
+  QStringList parts;
+  if (const auto counts = layer.counts(); !counts.empty()) {
+    const auto& [name, count] = counts.front();
+    parts << QLocale().toString(static_cast<qulonglong>(count)) + QLatin1Char(' ') + QString::fromStdString(name);
   }
-  return {};
+  if (status.level == StatusLevel::Info) {
+    parts << QString::fromStdString(status.code);
+  }
+  return parts.join(QStringLiteral(", "));
 }
 
 LayerPanel::LayerPanel(QWidget* parent) : QTreeWidget(parent) {

@@ -48,7 +48,8 @@ class LayerPanel : public QTreeWidget {
   std::vector<Row> rows_;
 };
 
-/// "ok", "39 712 points" or the status message: what a row says beside its name.
+/// What a row says beside its name: why nothing is drawn, else how much is and the code of a note ("39,712 points,
+/// PointsDropped"); the tool tip has the sentence.
 [[nodiscard]] QString statusLine(const scenegraph::Layer& layer);
 
 }  // namespace stillframe::viewer

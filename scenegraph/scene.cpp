@@ -90,8 +90,12 @@ std::string Scene::fixedFrame() const {
 
 std::string Scene::firstSourceFrame() const {
   for (const auto& slot : layers_) {
-    if (std::string frame = slot->layer->isVisible() ? slot->layer->sourceFrame() : std::string(); !frame.empty()) {
-      return frame;
+    // A built-in lies in whatever frame is fixed: it must not keep the frame of an earlier time.
+    if (slot->type->consumes == ObjectType::None || !slot->layer->isVisible()) {
+      continue;
+    }
+    if (const std::string frame = slot->layer->sourceFrame(); !frame.empty()) {
+      return std::string(tf::stripLeadingSlashes(frame));
     }
   }
   return {};

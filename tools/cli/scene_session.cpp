@@ -92,8 +92,6 @@ Result<void> SceneSession::chooseFrame() {
                          : near.empty() ? "; there are " + scenegraph::quotedList(known)
                                         : "; did you mean " + scenegraph::quotedList(near) + "?"));
     }
-  } else if (scene_->fixedFrame().empty() && !of_data.empty()) {
-    scene_->setFixedFrame(of_data.front());
   }
   updateFully();
   return {};

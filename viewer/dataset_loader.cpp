@@ -93,8 +93,12 @@ void DatasetLoader::run(Job& job, const RecordingOpener& opener, const std::vect
 }
 
 void DatasetLoader::collect() {
-  for (std::size_t i = 0; i < jobs_.size(); ++i) {
-    Job& job = *jobs_[i];
+  std::vector<Job*> jobs;  // a listener may open another one meanwhile
+  for (const auto& job : jobs_) {
+    jobs.push_back(job.get());
+  }
+  for (Job* const known : jobs) {
+    Job& job = *known;
     const bool is_finished = job.is_finished;  // before the rest: what it finished with is then seen below
     std::shared_ptr<scenegraph::Dataset> dataset;
     std::optional<Status> error;

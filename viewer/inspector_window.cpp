@@ -1,6 +1,8 @@
 #include "viewer/inspector_window.h"
 
 #include <QAction>
+#include <QCoreApplication>
+#include <QDebug>
 #include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QFileDialog>
@@ -291,6 +293,9 @@ void InspectorWindow::onLoaded() {
 void InspectorWindow::onFailed(const scenegraph::Status& status) {
   messages_->showMessage(scenegraph::StatusLevel::Error, QString::fromStdString(status.message));
   statusBar()->clearMessage();
+  if (options_.screenshot) {
+    failUnattended(QString::fromStdString(status.message));
+  }
   is_loading_ = loader_->isBusy();
   if (!is_loading_) {
     progress_->hide();
@@ -317,12 +322,17 @@ void InspectorWindow::takeScreenshotWhenComplete() {
   }
   if (isComplete()) {
     const auto file = *std::exchange(options_.screenshot, std::nullopt);
-    if (!grab().save(QString::fromStdString(file.string()))) {
-      messages_->showMessage(scenegraph::StatusLevel::Error,
-                             tr("cannot write %1").arg(QString::fromStdString(file.string())));
+    if (grab().save(QString::fromStdString(file.string()))) {
+      close();
+    } else {
+      failUnattended(tr("cannot write %1").arg(QString::fromStdString(file.string())));
     }
-    close();
   }
+}
+
+void InspectorWindow::failUnattended(const QString& message) {
+  qCritical().noquote() << message;
+  QCoreApplication::exit(1);
 }
 
 void InspectorWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -64,6 +64,8 @@ class InspectorWindow : public QMainWindow {
   void takeRange();
   void fillView(ViewPanel& panel);
   void takeScreenshotWhenComplete();
+  /// Ends the program with exit code 1: nobody is there to read a message bar.
+  void failUnattended(const QString& message);
 
   InspectorOptions options_;
   std::unique_ptr<scenegraph::Executor> executor_;  // outlives the views: see the destructor

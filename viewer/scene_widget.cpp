@@ -46,17 +46,19 @@ QLabel* makeOverlay(QWidget* parent) {
 
 }  // namespace
 
-SceneWidget::SceneWidget(QWidget* parent) : QOpenGLWidget(parent), gate_([this] { applyTick(); }) {
+SceneWidget::SceneWidget(QWidget* parent)
+    : QOpenGLWidget(parent),
+      gate_([this] { applyTick(); }),
+      message_(makeOverlay(this)),
+      hover_label_(makeOverlay(this)) {
   setFormat(glFormat());
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(0, 0);
-  message_ = makeOverlay(this);
   message_->setAlignment(Qt::AlignCenter);
   message_->setWordWrap(true);
   message_->setMargin(24);
   message_->setStyleSheet(QStringLiteral("color: #e8e8e8; background: #202226;"));
-  hover_label_ = makeOverlay(this);
   hover_label_->setStyleSheet(
       QStringLiteral("color: white; background: rgba(20, 22, 26, 200); border-radius: 3px; padding: 2px 5px;"));
 }

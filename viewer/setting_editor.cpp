@@ -206,8 +206,7 @@ QWidget* SettingEditor::makeColor() {
     const QColor chosen = QColorDialog::getColor(toQColor(valueOr(spec_, text_, scenegraph::Color{})), button,
                                                  QString::fromStdString(spec_.label), QColorDialog::ShowAlphaChannel);
     if (chosen.isValid()) {
-      const scenegraph::Color color{static_cast<float>(chosen.redF()), static_cast<float>(chosen.greenF()),
-                                    static_cast<float>(chosen.blueF()), static_cast<float>(chosen.alphaF())};
+      const scenegraph::Color color{chosen.redF(), chosen.greenF(), chosen.blueF(), chosen.alphaF()};
       const std::string text = scenegraph::settingText(color);
       show_(text);
       emitEdited(text);

@@ -32,8 +32,10 @@ CloudPoints::CloudPoints(CloudPoints&&) noexcept = default;
 CloudPoints& CloudPoints::operator=(CloudPoints&&) noexcept = default;
 CloudPoints::~CloudPoints() = default;
 
-std::expected<CloudPoints, scenegraph::Status> CloudPoints::make(std::shared_ptr<const scenegraph::PointCloud> cloud) {
+std::expected<CloudPoints, scenegraph::Status> CloudPoints::make(std::shared_ptr<const scenegraph::PointCloud> cloud,
+                                                                 const CloudSupplement& supplement) {
   CloudPoints points;
+  points.supplement_ = supplement;
   points.positions_ = makeArray<osg::Vec3Array>(0);
   auto converted = convertCloud(*cloud, [&](std::size_t floats) {
     points.positions_->resize(floats / 3);

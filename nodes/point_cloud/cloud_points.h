@@ -25,6 +25,12 @@ struct CloudChannel {
   ChannelValues limits;
 };
 
+/// What a message said that its cloud does not.
+struct CloudSupplement {
+  std::size_t left_out = 0;  ///< points of the message that did not get into the cloud
+  double duration_s = 0.0;   ///< from its first to its last point, those left out too; 0: all at once
+};
+
 /// A cloud in the form that is drawn: positions now, channels and colours when first asked for.
 ///
 /// Made on a worker, cached, shared by all views; the arrays are uploaded once per context and never written again.
@@ -33,12 +39,13 @@ struct CloudChannel {
 class CloudPoints {
  public:
   [[nodiscard]] static std::expected<CloudPoints, scenegraph::Status> make(
-      std::shared_ptr<const scenegraph::PointCloud> cloud);
+      std::shared_ptr<const scenegraph::PointCloud> cloud, const CloudSupplement& supplement = {});
   CloudPoints(CloudPoints&&) noexcept;
   CloudPoints& operator=(CloudPoints&&) noexcept;
   ~CloudPoints();
 
   [[nodiscard]] const scenegraph::PointCloud& source() const noexcept { return *cloud_; }
+  [[nodiscard]] const CloudSupplement& supplement() const noexcept { return supplement_; }
   [[nodiscard]] const ConvertedCloud& converted() const noexcept { return converted_; }
   [[nodiscard]] osg::Vec3Array* positions() const noexcept { return positions_.get(); }
   [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept { return channels_; }
@@ -64,6 +71,7 @@ class CloudPoints {
   CloudPoints();
 
   std::shared_ptr<const scenegraph::PointCloud> cloud_;
+  CloudSupplement supplement_;
   ConvertedCloud converted_;
   osg::ref_ptr<osg::Vec3Array> positions_;
   std::vector<ChannelInfo> channels_;

@@ -38,20 +38,24 @@ struct PointCloudLayer::Foresight {
 };
 
 std::unique_ptr<scenegraph::Layer> PointCloudLayer::create(std::string_view topic) {
-  return std::make_unique<PointCloudLayer>(topic);
+  const auto convert = [](const scenegraph::AnyObject& object, const scenegraph::Entry&) {
+    return CloudPoints::make(object.get<scenegraph::PointCloud>());
+  };
+  return std::make_unique<PointCloudLayer>(topic, CloudFeed{.convert = convert, .defaults = {}});
 }
 
-PointCloudLayer::PointCloudLayer(std::string_view topic) : topic_(topic), foresight_(std::make_shared<Foresight>()) {}
+PointCloudLayer::PointCloudLayer(std::string_view topic, CloudFeed feed)
+    : topic_(topic), feed_(std::move(feed)), settings_(feed_.defaults), foresight_(std::make_shared<Foresight>()) {}
 
 PointCloudLayer::~PointCloudLayer() = default;
 
 void PointCloudLayer::attach(const scenegraph::LayerContext& context) {
   context_.emplace(context);
   loader_.emplace(
-      context, scenegraph::ObjectType::PointCloud, topic_, "points",
-      [foresight = foresight_](const scenegraph::AnyObject& object,
-                               const scenegraph::Entry&) -> std::expected<CloudPoints, Status> {
-        auto points = CloudPoints::make(object.get<scenegraph::PointCloud>());
+      context, feed_.type, topic_, feed_.tag,
+      [convert = feed_.convert, foresight = foresight_](
+          const scenegraph::AnyObject& object, const scenegraph::Entry& entry) -> std::expected<CloudPoints, Status> {
+        auto points = convert(object, entry);
         if (points) {
           foresight->prepare(*points);
         }
@@ -101,8 +105,8 @@ void PointCloudLayer::update(const scenegraph::Tick& tick) {
   }
   foresight_->set(settings_.color_field);
   (void)loader_->update(tick.time);
-  if (loader_->product() != product_) {
-    show(loader_->product());
+  if (auto drawn = drawnOf(loader_->product()); drawn != product_) {
+    show(std::move(drawn));
   }
   hold(product_ != nullptr ? std::optional(std::string(tf::stripLeadingSlashes(product_->source().frame_id)))
                            : std::nullopt);
@@ -128,6 +132,14 @@ void PointCloudLayer::update(const scenegraph::Tick& tick) {
     }
   }
   status_ = judge(placement);
+}
+
+std::shared_ptr<const CloudPoints> PointCloudLayer::drawnOf(const std::shared_ptr<const CloudPoints>& loaded) {
+  return loaded;
+}
+
+std::optional<scenegraph::Entry> PointCloudLayer::loadedEntry() const {
+  return loader_ ? loader_->entry() : std::nullopt;
 }
 
 void PointCloudLayer::show(std::shared_ptr<const CloudPoints> product) {
@@ -244,7 +256,7 @@ Status PointCloudLayer::judge(const Placement& placement) const {
                 " points are not drawn: " + std::to_string(cloud.not_finite) + " with a NaN or infinite coordinate, " +
                 std::to_string(cloud.out_of_reach) + " farther than 1e15 m"};
   }
-  return {};
+  return remark();
 }
 
 scenegraph::LayerCounts PointCloudLayer::counts() const {
@@ -253,7 +265,7 @@ scenegraph::LayerCounts PointCloudLayer::counts() const {
   }
   const ConvertedCloud& cloud = product_->converted();
   return {{"points", cloud.points + cloud.out_of_reach},
-          {"dropped", cloud.not_finite},
+          {"dropped", cloud.not_finite + product_->supplement().left_out},
           {"bytes", product_->source().data.bytes.size()}};
 }
 

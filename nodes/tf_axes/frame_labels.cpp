@@ -1,9 +1,12 @@
 #include "nodes/tf_axes/frame_labels.h"
 
 #include <filesystem>
+#include <osg/Group>
 #include <osgText/Text>
 
+#include "generated/stillframe_nodes/shaders.h"
 #include "nodes/osg_math.h"
+#include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
 namespace {
@@ -28,6 +31,12 @@ osg::ref_ptr<osg::Node> FrameLabels::make(const std::string& name, double height
   if (!has_looked_) {
     font_ = findFont();
     has_looked_ = true;
+    // Text has a state of its own for each font, which knows nothing of a scene-linear target.
+    namespace shaders = shaders::stillframe_nodes;
+    state_ = new osg::StateSet;
+    state_->setAttributeAndModes(scenegraph::makeProgram("label", shaders::k_label_vert, shaders::k_label_frag),
+                                 osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+    state_->addUniform(new osg::Uniform("u_glyphs", 0));
   }
   osg::ref_ptr<osgText::Text> text = new osgText::Text;
   text->setName("label");
@@ -45,7 +54,10 @@ osg::ref_ptr<osg::Node> FrameLabels::make(const std::string& name, double height
   text->setColor(toOsg(color));
   // Its true size depends on the camera: a bound from the text would cull it wrongly.
   text->setCullingActive(false);
-  return text;
+  osg::ref_ptr<osg::Group> label = new osg::Group;
+  label->setStateSet(state_);
+  label->addChild(text);
+  return label;
 }
 
 }  // namespace stillframe::nodes

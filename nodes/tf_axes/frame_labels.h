@@ -1,6 +1,7 @@
 #pragma once
 
 #include <osg/Node>
+#include <osg/StateSet>
 #include <osg/ref_ptr>
 #include <osgText/Font>
 #include <string>
@@ -18,6 +19,7 @@ class FrameLabels {
  private:
   bool has_looked_ = false;
   osg::ref_ptr<osgText::Font> font_;
+  osg::ref_ptr<osg::StateSet> state_;
 };
 
 }  // namespace stillframe::nodes

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "tests/nodes/scene_picture.h"
 
 namespace stillframe::test {
@@ -75,6 +77,21 @@ TEST_F(AxesPicture, WritesNamesOnlyWhenAsked) {
   EXPECT_LT(beside_base, 500);
   ASSERT_TRUE(layer.applySettings({{"labels", "false"}}));
   EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+}
+
+TEST_F(AxesPicture, WritesNamesInTheirColour) {
+  open(tree(), "map");
+  add("tf", {{"axes", "false"},
+             {"parent_lines", "false"},
+             {"labels", "true"},
+             {"label_height", "60"},
+             {"label_color", "#4080c0"}});
+  const auto picture = draw(1_s, fromAbove());
+  Bytes3 brightest{};
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
+    brightest[i % 3] = std::max(brightest[i % 3], static_cast<int>(picture.rgb[i]));
+  }
+  EXPECT_EQ(brightest, (Bytes3{0x40, 0x80, 0xc0}));
 }
 
 TEST_F(AxesPicture, ShowsFramesThatArriveLater) {

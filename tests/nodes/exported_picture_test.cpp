@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <osgDB/ReadFile>
+
+#include "scenegraph/export/osgt_export.h"
+#include "tests/nodes/scene_picture.h"
+#include "tests/support/plain_viewer.h"
+
+namespace stillframe::test {
+namespace {
+
+using scenegraph::FieldType;
+using scenegraph::ObjectType;
+
+constexpr int kWidth = 320;
+constexpr int kHeight = 240;
+constexpr scenegraph::Color kBackground{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
+
+/// A wavy surface of 60 x 40 points with intensity and packed colours, and frames of a small robot; `map` lies at
+/// `utm_from_map` in the frame "utm".
+std::shared_ptr<scenegraph::Dataset> robotAt(const glm::dvec3& utm_from_map) {
+  CloudBuilder cloud("lidar");
+  cloud.xyz().field("intensity", FieldType::Float32).field("rgb", FieldType::Float32);
+  for (int row = 0; row < 40; ++row) {
+    for (int column = 0; column < 60; ++column) {
+      const double x = 0.1 * column - 3.0;
+      const double y = 0.1 * row - 2.0;
+      const auto red = static_cast<std::uint32_t>(column * 4);
+      const auto green = static_cast<std::uint32_t>(row * 6);
+      const std::uint32_t word = red << 16U | green << 8U | (255U - red);
+      cloud.point({x, y, 0.4 * std::sin(2.0 * x) * std::cos(1.5 * y), 17.0 * x * y,
+                   static_cast<double>(std::bit_cast<float>(word))});
+    }
+  }
+  return DatasetBuilder()
+      .topic("/tf", ObjectType::FrameTransforms)
+      .transform(0, "utm", "map", {.translation = utm_from_map})
+      .transform(0, "map", "base", turn(0.3, 0.5, -0.25, 0.125))
+      .transform(0, "base", "lidar", turn(-0.7, 0.4, 0.0, 0.9))
+      .transform(0, "base", "arm", turn(1.1, -1.0, 1.2, 0.8))
+      .topic("/points", ObjectType::PointCloud)
+      .at(1_s, cloud.build())
+      .build();
+}
+
+struct LayerSetup {
+  std::string topic;
+  scenegraph::SettingTexts settings;
+};
+
+struct ExportCase {
+  const char* name;
+  std::vector<LayerSetup> layers;
+  std::size_t least_drawn;      ///< pixels that are not background
+  std::size_t least_drawn_far;  ///< the same at the UTM offset: the grid lies at the fixed frame's origin
+  bool is_blended = false;      ///< edges are blended, by us in linear light, by a stock viewer in sRGB bytes
+};
+
+void PrintTo(const ExportCase& export_case, std::ostream* out) { *out << export_case.name; }
+
+/// Pixels that are drawn in one picture and background in the other.
+std::size_t drawnInOne(const scenegraph::BytePicture& a, const scenegraph::BytePicture& b,
+                       const scenegraph::BytePicture& empty) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + 2 < empty.rgb.size(); i += 3) {
+    const auto isDrawn = [&](const scenegraph::BytePicture& picture) {
+      return !std::equal(&picture.rgb[i], &picture.rgb[i] + 3, &empty.rgb[i]);
+    };
+    count += isDrawn(a) != isDrawn(b) ? 1U : 0U;
+  }
+  return count;
+}
+
+class ExportedPicture : public ScenePictureTest, public testing::WithParamInterface<ExportCase> {
+ protected:
+  void SetUp() override {
+    ScenePictureTest::SetUp();
+    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("exported_picture_") + GetParam().name);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override {
+    ScenePictureTest::TearDown();
+    std::filesystem::remove_all(folder_);
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_P(ExportedPicture, IsTheSameInAPlainViewer) {
+  const std::array<glm::dvec3, 2> places{glm::dvec3(0.0), glm::dvec3(5e5, 5e6, 120.0)};
+  for (const glm::dvec3& place : places) {
+    const bool is_far = place.x > 0.0;
+    SCOPED_TRACE(is_far ? "at a UTM offset" : "at the origin");
+    open(robotAt(place), "utm");
+    for (const LayerSetup& layer : GetParam().layers) {
+      add(layer.topic, layer.settings);
+    }
+    scene_->update(tf::TimePoint{1_s});
+    const scenegraph::CameraView view{.eye_from_fixed =
+                                          scenegraph::lookAt(place + glm::dvec3(3.5, -5.0, 4.0), place, {0, 0, 1})};
+    const auto picture =
+        renderer_->render(scene_->root(), view, {.width = kWidth, .height = kHeight, .background = kBackground});
+    ASSERT_TRUE(picture) << picture.error().message;
+    const auto ours = scenegraph::toBytes(*picture);
+    const osg::ref_ptr<osg::Group> nothing = new osg::Group;
+    const auto empty = drawPlainly(*nothing, view, 0.1, 100.0, kWidth, kHeight, kBackground);
+    const std::size_t drawn = difference(ours, empty).pixels;
+    EXPECT_GE(drawn, is_far ? GetParam().least_drawn_far : GetParam().least_drawn);
+    for (const char* const file : {"scene.osgt", "scene.osgb"}) {
+      const auto path = folder_ / file;
+      const auto written = scenegraph::exportGraph(
+          scene_->root(),
+          {.time = {1_s}, .fixed_frame = "utm", .source = "test", .layers = {}, .viewport_height_px = kHeight}, path);
+      ASSERT_TRUE(written) << written.error().message;
+      const osg::ref_ptr<osg::Node> back = osgDB::readRefNodeFile(path.string());
+      ASSERT_TRUE(back.valid());
+      const auto plain = drawPlainly(*back, view, 0.1, 100.0, kWidth, kHeight, kBackground);
+      const auto differs = difference(ours, plain);
+      const std::string key = std::string(file).substr(6) + (is_far ? "_utm" : "_origin");
+      RecordProperty("pixels_" + key, static_cast<int>(differs.pixels));
+      RecordProperty("largest_" + key, differs.largest);
+      EXPECT_LE(drawnInOne(ours, plain, empty), GetParam().is_blended ? drawn / 50 : 0U) << file;
+      if (!GetParam().is_blended) {
+        // One step of a channel where a colour between two bytes is rounded to half float on its way through linear
+        // light, nothing else.
+        EXPECT_EQ(differs.beyond_one, 0U) << file << ": largest " << differs.largest;
+        EXPECT_LE(differs.pixels * 6, drawn) << file;
+      }
+    }
+  }
+}
+
+const LayerSetup kGrid{"grid", {}};
+const LayerSetup kAxes{"tf", {{"axis_length", "0.6"}, {"hidden_frames", "utm"}}};
+
+LayerSetup cloud(scenegraph::SettingTexts settings) { return {"/points", std::move(settings)}; }
+
+INSTANTIATE_TEST_SUITE_P(
+    Layers, ExportedPicture,
+    testing::Values(
+        ExportCase{"cloud_by_z", {cloud({{"color_field", "z"}, {"point_size", "3"}})}, 5000, 5000},
+        ExportCase{"cloud_by_intensity", {cloud({{"color_field", "intensity"}})}, 3000, 3000},
+        ExportCase{
+            "cloud_rgb", {cloud({{"color_field", "rgb"}, {"round_points", "true"}, {"point_size", "5"}})}, 5000, 5000},
+        ExportCase{"cloud_in_metres",
+                   {cloud({{"color_field", "flat"}, {"size_unit", "m"}, {"point_size", "0.05"}})},
+                   5000,
+                   5000},
+        ExportCase{"axes", {kAxes}, 300, 300}, ExportCase{"grid", {kGrid}, 500, 0},
+        ExportCase{
+            "labels", {{"tf", {{"labels", "true"}, {"axes", "false"}, {"hidden_frames", "utm"}}}}, 300, 300, true},
+        ExportCase{"all", {kGrid, kAxes, cloud({{"color_field", "z"}})}, 5000, 5000}),
+    [](const auto& instance) { return std::string(instance.param.name); });
+
+}  // namespace
+}  // namespace stillframe::test

@@ -12,7 +12,11 @@
 namespace stillframe::viewer {
 namespace {
 
-enum Column { kFrame, kAge, kSamples, kRate, kColumns };
+constexpr int kFrame = 0;  // columns
+constexpr int kAge = 1;
+constexpr int kSamples = 2;
+constexpr int kRate = 3;
+constexpr int kColumns = 4;
 constexpr int kRefreshMs = 100;
 
 void setTextIfNew(QTreeWidgetItem& item, int column, const QString& text) {

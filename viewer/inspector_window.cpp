@@ -43,7 +43,8 @@ std::vector<std::filesystem::path> localFiles(const QMimeData& data) {
 InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions options, QWidget* parent)
     : QMainWindow(parent),
       options_(std::move(options)),
-      executor_(scenegraph::makeThreadPoolExecutor(std::max(2U, std::thread::hardware_concurrency()) - 1U)) {
+      executor_(scenegraph::makeThreadPoolExecutor(std::max(2U, std::thread::hardware_concurrency()) - 1U)),
+      progress_(new QProgressBar(this)) {
   setWindowTitle(QStringLiteral("Stillframe"));
   setAcceptDrops(true);
   resize(options_.width, options_.height);
@@ -74,7 +75,6 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   addDockWidget(Qt::RightDockWidgetArea, dock);
   resizeDocks({dock}, {kFrameTreeWidth}, Qt::Horizontal);
 
-  progress_ = new QProgressBar(this);
   progress_->setObjectName(QStringLiteral("progress"));
   progress_->setRange(0, kProgressSteps);
   progress_->setMaximumWidth(220);

@@ -79,11 +79,15 @@ std::optional<tf::TimePoint> neighbouringMessage(const scenegraph::ObjectStore& 
   return best;
 }
 
-TimeBar::TimeBar(QWidget* parent) : QWidget(parent) {
+TimeBar::TimeBar(QWidget* parent)
+    : QWidget(parent),
+      slider_(new QSlider(Qt::Horizontal, this)),
+      speed_(new QComboBox(this)),
+      step_mode_(new QComboBox(this)),
+      timer_(new QTimer(this)) {
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(6, 2, 6, 2);
   layout->setSpacing(3);
-  timer_ = new QTimer(this);
   timer_->setInterval(kTimerMs);
   connect(timer_, &QTimer::timeout, this, &TimeBar::onPlaybackTimer);
 
@@ -98,7 +102,6 @@ TimeBar::TimeBar(QWidget* parent) : QWidget(parent) {
   loop_->setCheckable(true);
   connect(loop_, &QToolButton::toggled, this, [this](bool on) { setPlayback({playback_.speed, on}); });
 
-  speed_ = new QComboBox(this);
   speed_->setObjectName(QStringLiteral("speed"));
   speed_->setToolTip(tr("Speed"));
   for (const double speed : kSpeeds) {
@@ -109,7 +112,6 @@ TimeBar::TimeBar(QWidget* parent) : QWidget(parent) {
           [this] { setPlayback({speed_->currentData().toDouble(), playback_.loops}); });
   layout->addWidget(speed_);
 
-  step_mode_ = new QComboBox(this);
   step_mode_->setObjectName(QStringLiteral("stepMode"));
   step_mode_->setToolTip(tr("What a step goes to"));
   step_mode_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -117,7 +119,6 @@ TimeBar::TimeBar(QWidget* parent) : QWidget(parent) {
   layout->addWidget(step_mode_);
   fillStepModes();
 
-  slider_ = new QSlider(Qt::Horizontal, this);
   slider_->setObjectName(QStringLiteral("timeSlider"));
   slider_->setRange(0, kSteps);
   slider_->setSingleStep(kSteps / 1000);

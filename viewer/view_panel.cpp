@@ -18,7 +18,7 @@ constexpr int kLayerPanelWidth = 270;
 
 }  // namespace
 
-ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
+ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter(Qt::Horizontal, this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
@@ -46,7 +46,6 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
   auto* close = addButton(*bar, QStringLiteral("close"), transportIcon(TransportIcon::Close), tr("Close this view"));
   layout->addWidget(bar);
 
-  splitter_ = new QSplitter(Qt::Horizontal, this);
   splitter_->setChildrenCollapsible(true);
   layers_ = new LayerPanel(splitter_);
   layers_->setObjectName(QStringLiteral("layerPanel"));

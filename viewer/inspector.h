@@ -1,10 +1,12 @@
 #pragma once
 
+#include <expected>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "scenegraph/status.h"
 #include "viewer/dataset_loader.h"
 #include "viewer/layer_choices.h"
 
@@ -23,7 +25,8 @@ struct InspectorOptions {
 };
 
 /// Runs `stillframe view`: makes the application (whose arguments are argc and argv) and a window, until it is closed.
-/// Returns the exit code.
-int runInspector(int argc, char** argv, const InspectorOptions& options, const RecordingOpener& opener);
+/// Returns the exit code; "NoDisplay" when the display that the environment names does not answer.
+std::expected<int, scenegraph::Status> runInspector(int argc, char** argv, const InspectorOptions& options,
+                                                    const RecordingOpener& opener);
 
 }  // namespace stillframe::viewer

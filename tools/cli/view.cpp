@@ -103,8 +103,11 @@ Result<void> runView(const ViewCommandOptions& options) {
   }
   std::string name = "stillframe";
   std::array<char*, 2> arguments{name.data(), nullptr};
-  const int code = viewer::runInspector(1, arguments.data(), inspector, makeOpener(options.recording));
-  return code == 0 ? Result<void>{} : failure("the inspector ended with code " + std::to_string(code));
+  const auto code = viewer::runInspector(1, arguments.data(), inspector, makeOpener(options.recording));
+  if (!code) {
+    return failure(code.error().message);
+  }
+  return *code == 0 ? Result<void>{} : failure("the inspector ended with code " + std::to_string(*code));
 }
 
 #else

@@ -218,5 +218,16 @@ TEST(Program, NeedsADisplayForTheWindowOnly) {
   EXPECT_THAT(failed.err, HasSubstr("render"));
 }
 
+TEST(Program, SaysThatTheDisplayDoesNotAnswer) {
+  const TestFolder folder;
+  ::unsetenv("WAYLAND_DISPLAY");
+  ::unsetenv("QT_QPA_PLATFORM");
+  ::setenv("DISPLAY", ":31999", 1);
+  const Outcome failed = run(folder.path(), {"view", folder.makeSample()});
+  ::unsetenv("DISPLAY");
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_THAT(failed.err, HasSubstr("':31999' does not answer"));
+}
+
 }  // namespace
 }  // namespace stillframe::cli

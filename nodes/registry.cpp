@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "nodes/grid/grid_layer.h"
+#include "nodes/laser_scan/laser_scan_layer.h"
 #include "nodes/point_cloud/point_cloud_layer.h"
 #include "nodes/tf_axes/tf_axes_layer.h"
 
@@ -14,6 +15,7 @@ std::span<const scenegraph::LayerType> layerTypes() {
       {"grid", "Grid", None, &GridLayer::create},
       {"tf", "TF", None, &TfAxesLayer::create},
       {"point_cloud", "Point cloud", PointCloud, &PointCloudLayer::create},
+      {"laser_scan", "Laser scan", LaserScan, &LaserScanLayer::create},
   };
   return kTypes;
 }

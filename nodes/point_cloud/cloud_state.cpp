@@ -53,6 +53,7 @@ void CloudState::apply(const PointCloudSettings& settings) {
     state_->setTextureAttributeAndModes(0, new osg::PointSprite, osg::StateAttribute::ON);
   } else {
     state_->removeTextureAttribute(0, osg::StateAttribute::POINTSPRITE);
+    state_->removeMode(GL_POINT_SPRITE_ARB);  // OSG leaves it behind
   }
   if (settings.opacity < 1.0) {
     // Alpha of the target stays that of an opaque picture.

@@ -1,49 +1,18 @@
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <filesystem>
 #include <osgDB/ReadFile>
 
 #include "scenegraph/export/osgt_export.h"
+#include "tests/nodes/robot_scene.h"
 #include "tests/nodes/scene_picture.h"
 #include "tests/support/plain_viewer.h"
 
 namespace stillframe::test {
 namespace {
 
-using scenegraph::FieldType;
-using scenegraph::ObjectType;
-
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 constexpr scenegraph::Color kBackground{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
-
-/// A wavy surface of 60 x 40 points with intensity and packed colours, and frames of a small robot; `map` lies at
-/// `utm_from_map` in the frame "utm".
-std::shared_ptr<scenegraph::Dataset> robotAt(const glm::dvec3& utm_from_map) {
-  CloudBuilder cloud("lidar");
-  cloud.xyz().field("intensity", FieldType::Float32).field("rgb", FieldType::Float32);
-  for (int row = 0; row < 40; ++row) {
-    for (int column = 0; column < 60; ++column) {
-      const double x = 0.1 * column - 3.0;
-      const double y = 0.1 * row - 2.0;
-      const auto red = static_cast<std::uint32_t>(column * 4);
-      const auto green = static_cast<std::uint32_t>(row * 6);
-      const std::uint32_t word = red << 16U | green << 8U | (255U - red);
-      cloud.point({x, y, 0.4 * std::sin(2.0 * x) * std::cos(1.5 * y), 17.0 * x * y,
-                   static_cast<double>(std::bit_cast<float>(word))});
-    }
-  }
-  return DatasetBuilder()
-      .topic("/tf", ObjectType::FrameTransforms)
-      .transform(0, "utm", "map", {.translation = utm_from_map})
-      .transform(0, "map", "base", turn(0.3, 0.5, -0.25, 0.125))
-      .transform(0, "base", "lidar", turn(-0.7, 0.4, 0.0, 0.9))
-      .transform(0, "base", "arm", turn(1.1, -1.0, 1.2, 0.8))
-      .topic("/points", ObjectType::PointCloud)
-      .at(1_s, cloud.build())
-      .build();
-}
 
 struct LayerSetup {
   std::string topic;

@@ -1,0 +1,267 @@
+// Before OSG's headers, which bring the same ones without prototypes.
+#define GL_GLEXT_PROTOTYPES
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include "scenegraph/pipeline/view_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenegraph/pipeline/offscreen_context.h"
+#include "tests/scenegraph/pipeline/shader_scene.h"
+
+namespace stillframe::scenegraph {
+namespace {
+
+using Names = std::vector<std::string>;
+using Rgb = std::array<int, 3>;
+
+/// A framebuffer with an 8-bit colour target, as a widget hands one over.
+class Output {
+ public:
+  Output(int width_px, int height_px) : width_(width_px), height_(height_px) {
+    glCreateRenderbuffers(1, &color_);
+    glNamedRenderbufferStorage(color_, GL_RGBA8, width_px, height_px);
+    glCreateFramebuffers(1, &fbo_);
+    glNamedFramebufferRenderbuffer(fbo_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_);
+  }
+  ~Output() {
+    glDeleteFramebuffers(1, &fbo_);
+    glDeleteRenderbuffers(1, &color_);
+  }
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  [[nodiscard]] GLuint id() const { return fbo_; }
+  /// Bottom row first.
+  [[nodiscard]] Rgb pixel(int x, int y) const {
+    std::array<GLubyte, 4> rgba{};
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, fbo_);
+    glReadPixels(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    return {rgba[0], rgba[1], rgba[2]};
+  }
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+ private:
+  int width_;
+  int height_;
+  GLuint color_ = 0;
+  GLuint fbo_ = 0;
+};
+
+/// Names in use of each kind of object. The driver hands out low names first, so that a leak shows within the range.
+struct LiveObjects {
+  int textures = 0;
+  int framebuffers = 0;
+  int renderbuffers = 0;
+  int buffers = 0;
+  int programs = 0;
+
+  static LiveObjects count() {
+    LiveObjects live;
+    for (GLuint name = 1; name < 20'000; ++name) {
+      live.textures += glIsTexture(name) == GL_TRUE ? 1 : 0;
+      live.framebuffers += glIsFramebuffer(name) == GL_TRUE ? 1 : 0;
+      live.renderbuffers += glIsRenderbuffer(name) == GL_TRUE ? 1 : 0;
+      live.buffers += glIsBuffer(name) == GL_TRUE ? 1 : 0;
+      live.programs += glIsProgram(name) == GL_TRUE ? 1 : 0;
+    }
+    return live;
+  }
+  friend bool operator==(const LiveObjects&, const LiveObjects&) = default;
+};
+
+void PrintTo(const LiveObjects& live, std::ostream* out) {
+  *out << live.textures << " textures, " << live.framebuffers << " framebuffers, " << live.renderbuffers
+       << " renderbuffers, " << live.buffers << " buffers, " << live.programs << " programs";
+}
+
+/// A pass that writes an expression of `scene`, the colour it reads.
+PostPass makePass(const std::string& name, const std::string& input, const std::string& expression) {
+  return {name,
+          "#version 450 compatibility\nuniform sampler2D u_image;\nvoid main() {\n"
+          "  vec3 scene = texelFetch(u_image, ivec2(gl_FragCoord.xy), 0).rgb;\n  gl_FragColor = vec4(" +
+              expression + ", 1.0);\n}\n",
+          {{"u_image", input}},
+          nullptr};
+}
+
+class ViewPipelineTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto context = OffscreenContext::create();
+    ASSERT_TRUE(context) << context.error().message;
+    context_ = std::move(*context);
+    pipeline_ = std::make_unique<ViewPipeline>(root_);
+    pipeline_->setView({.eye_from_fixed = lookAt({0, 0, 3}, {0, 0, 0}, {0, 1, 0})});
+    pipeline_->setBackground({0, 0, 0, 1});
+  }
+  void TearDown() override {
+    pipeline_.reset();
+    EXPECT_EQ(context_->debugLog().count(), 0U) << ::testing::PrintToString(context_->debugLog().messages());
+  }
+  void present(const Output& output) {
+    const auto drawn = pipeline_->render(output.id(), output.width(), output.height());
+    EXPECT_TRUE(drawn) << drawn.error().message;
+  }
+
+  std::unique_ptr<OffscreenContext> context_;
+  osg::ref_ptr<osg::Group> root_ = new osg::Group;
+  std::unique_ptr<ViewPipeline> pipeline_;
+};
+
+TEST_F(ViewPipelineTest, PresentsEverySrgbByteExactly) {
+  const Output output{256, 4};
+  std::vector<osg::Vec3> vertices;
+  std::vector<osg::Vec4> colors;
+  for (int value = 0; value < 256; ++value) {
+    const float shade = static_cast<float>(value) / 255.0F;
+    vertices.emplace_back(static_cast<float>(value) - 127.5F, 0.0F, 0.0F);
+    colors.emplace_back(shade, 1.0F - shade, shade, 1.0F);
+  }
+  root_->addChild(makeShape(GL_POINTS, vertices, colors));
+  root_->getOrCreateStateSet()->setMode(GL_VERTEX_PROGRAM_POINT_SIZE,
+                                        osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+  pipeline_->setView({.eye_from_fixed = lookAt({0, 0.5, 3}, {0, 0.5, 0}, {0, 1, 0}),
+                      .is_orthographic = true,
+                      .vertical_extent_m = 4.0});
+  present(output);
+  for (int value = 0; value < 256; ++value) {
+    EXPECT_EQ(output.pixel(value, 1), (Rgb{value, 255 - value, value}));
+  }
+}
+
+TEST_F(ViewPipelineTest, RunsNothingThatNoOneAskedFor) {
+  const Output output{16, 16};
+  ASSERT_TRUE(pipeline_->renderLinear(16, 16));
+  EXPECT_EQ(pipeline_->passes(), Names{"scene"});
+  present(output);
+  EXPECT_EQ(pipeline_->passes(), (Names{"scene", "present"}));
+  ASSERT_TRUE(pipeline_->renderLinear(16, 16));
+  EXPECT_EQ(pipeline_->passes(), Names{"scene"});
+}
+
+TEST_F(ViewPipelineTest, DrawsIntoWhicheverFramebufferItIsHanded) {
+  root_->addChild(makeQuad(5, 5, 0, {1, 0, 0, 1}));
+  const Output first{32, 32};
+  present(first);
+  EXPECT_EQ(first.pixel(16, 16), (Rgb{255, 0, 0}));
+  root_->removeChildren(0, 1);
+  root_->addChild(makeQuad(5, 5, 0, {0, 1, 0, 1}));
+  const Output second{32, 32};
+  ASSERT_NE(first.id(), second.id());
+  present(second);
+  EXPECT_EQ(second.pixel(16, 16), (Rgb{0, 255, 0}));
+  EXPECT_EQ(first.pixel(16, 16), (Rgb{255, 0, 0}));
+}
+
+TEST_F(ViewPipelineTest, FillsTheOutputAtEverySize) {
+  root_->addChild(makeQuad(5000, 50, 0, {0, 0, 1, 1}));
+  for (const auto& [width, height] : {std::pair{64, 48}, {1, 1}, {7, 300}, {0, 0}, {640, 2}, {64, 0}, {64, 48}}) {
+    if (width == 0 || height == 0) {
+      EXPECT_TRUE(pipeline_->render(0, width, height));
+      EXPECT_TRUE(pipeline_->passes().empty());
+      continue;
+    }
+    const Output output{width, height};
+    present(output);
+    EXPECT_EQ(output.pixel(0, 0), (Rgb{0, 0, 255})) << width << "x" << height;
+    EXPECT_EQ(output.pixel(width - 1, height - 1), (Rgb{0, 0, 255})) << width << "x" << height;
+  }
+}
+
+TEST_F(ViewPipelineTest, RunsPostPassesInOrder) {
+  const Output output{16, 16};
+  root_->addChild(makeQuad(5, 5, 0, {1, 0, 0, 1}));
+  pipeline_->setPostPasses({makePass("invert", "scene", "1.0 - scene")});
+  present(output);
+  EXPECT_EQ(output.pixel(8, 8), (Rgb{0, 255, 255}));
+  EXPECT_EQ(pipeline_->passes(), (Names{"scene", "invert", "present"}));
+
+  pipeline_->setPostPasses(
+      {makePass("invert", "scene", "1.0 - scene"), makePass("rotate", "invert", "scene.brg * vec3(1.0, 0.0, 1.0)")});
+  present(output);
+  EXPECT_EQ(output.pixel(8, 8), (Rgb{255, 0, 255}));  // (0, 1, 1) -> (1, 0, 1)
+  EXPECT_EQ(pipeline_->passes(), (Names{"scene", "invert", "rotate", "present"}));
+  ASSERT_TRUE(pipeline_->renderLinear(16, 16));
+  const LinearFrame linear = pipeline_->readLinear();
+  ASSERT_EQ(linear.rgba.size(), 16U * 16U * 4U);
+  EXPECT_EQ(linear.rgba[0], 1.0F);
+  EXPECT_EQ(linear.rgba[1], 0.0F);
+
+  pipeline_->setPostPasses({});
+  present(output);
+  EXPECT_EQ(output.pixel(8, 8), (Rgb{255, 0, 0}));
+}
+
+TEST_F(ViewPipelineTest, LetsAPassReadDepthAndItsParameters) {
+  const Output output{16, 16};
+  root_->addChild(makeQuad(0.5F, 5, 0, {1, 0, 0, 1}));
+  PostPass pass{"nearness",
+                "#version 450 compatibility\nuniform sampler2D u_depth;\nuniform float u_gain;\nvoid main() {\n"
+                "  float depth = texelFetch(u_depth, ivec2(gl_FragCoord.xy), 0).r;\n"
+                "  gl_FragColor = vec4(vec3(depth * u_gain), 1.0);\n}\n",
+                {{"u_depth", "depth"}},
+                new osg::StateSet};
+  osg::ref_ptr<osg::Uniform> gain = new osg::Uniform{"u_gain", 300.0F};
+  pass.parameters->addUniform(gain);
+  pipeline_->setPostPasses({pass});
+  present(output);
+  EXPECT_EQ(output.pixel(8, 8), (Rgb{255, 255, 255}));  // near 0.01 m / 3 m * 300 = 1
+  EXPECT_EQ(output.pixel(0, 8), (Rgb{0, 0, 0}));
+  gain->set(0.0F);
+  present(output);
+  EXPECT_EQ(output.pixel(8, 8), (Rgb{0, 0, 0}));
+}
+
+TEST_F(ViewPipelineTest, ReleasesTwiceAndDrawsOn) {
+  const Output output{16, 16};
+  const LiveObjects before = LiveObjects::count();
+  root_->addChild(makeQuad(5, 5, 0, {1, 1, 0, 1}));
+  pipeline_->setPostPasses({makePass("invert", "scene", "1.0 - scene")});
+  for (int round = 0; round < 3; ++round) {
+    present(output);
+    EXPECT_EQ(output.pixel(8, 8), (Rgb{0, 0, 255})) << round;
+    EXPECT_NE(LiveObjects::count(), before);
+    pipeline_->releaseGl();
+    pipeline_->releaseGl();
+    EXPECT_EQ(LiveObjects::count(), before) << round;
+  }
+}
+
+TEST_F(ViewPipelineTest, LeaksNothingOverAThousandResizesAndToggles) {
+  const Output output{128, 128};
+  root_->addChild(makeQuad(5, 5, 0, {1, 0, 1, 1}));
+  const std::vector<PostPass> passes{makePass("invert", "scene", "1.0 - scene")};
+  const auto settle = [&] {
+    pipeline_->setPostPasses({});
+    EXPECT_TRUE(pipeline_->render(output.id(), 100, 100));
+    EXPECT_TRUE(pipeline_->render(output.id(), 100, 100));
+    return LiveObjects::count();
+  };
+  (void)settle();
+  pipeline_->setPostPasses(passes);
+  EXPECT_TRUE(pipeline_->render(output.id(), 100, 100));
+  const LiveObjects at_first = settle();
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_TRUE(pipeline_->render(output.id(), 1 + i % 128, 1 + (7 * i) % 128));
+  }
+  EXPECT_EQ(settle(), at_first) << "after resizing";
+  for (int i = 0; i < 1000; ++i) {
+    pipeline_->setPostPasses(i % 2 == 0 ? passes : std::vector<PostPass>{});
+    EXPECT_TRUE(pipeline_->render(output.id(), 100, 100));
+  }
+  EXPECT_EQ(settle(), at_first) << "after toggling";
+}
+
+}  // namespace
+}  // namespace stillframe::scenegraph

@@ -64,4 +64,15 @@ std::string quotedList(std::span<const std::string> names, std::size_t limit) {
   return names.size() > limit ? text + " and " + std::to_string(names.size() - limit) + " more" : text;
 }
 
+std::string noSuch(std::string_view kind, std::string_view wanted, std::span<const std::string> known) {
+  std::string text = "there is no ";
+  text.append(kind).append(" '").append(wanted).append("'");
+  const auto near = nearNames(wanted, known);
+  if (known.empty()) {
+    return text.append("; the recording has none");
+  }
+  return near.empty() ? text.append("; there are ").append(quotedList(known))
+                      : text.append("; did you mean ").append(quotedList(near)).append("?");
+}
+
 }  // namespace stillframe::scenegraph

@@ -14,4 +14,7 @@ namespace stillframe::scenegraph {
 /// "'a', 'b', 'c'" of the first `limit` names, and how many more there are.
 [[nodiscard]] std::string quotedList(std::span<const std::string> names, std::size_t limit = 8);
 
+/// "there is no frame 'mpa'; did you mean 'map'?": `kind` is "frame" or "topic", `known` what there is.
+[[nodiscard]] std::string noSuch(std::string_view kind, std::string_view wanted, std::span<const std::string> known);
+
 }  // namespace stillframe::scenegraph

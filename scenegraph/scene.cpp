@@ -129,10 +129,7 @@ Status Scene::refusal(std::string_view topic) const {
   for (TopicId id = 0; id < store.topicCount(); ++id) {
     known.push_back(store.topic(id).name);
   }
-  const auto near = nearNames(topic, known);
-  return {StatusLevel::Error, "UnknownTopic",
-          "there is no topic '" + name + "'" +
-              (near.empty() ? "; there are " + quotedList(known) : "; did you mean " + quotedList(near) + "?")};
+  return {StatusLevel::Error, "UnknownTopic", noSuch("topic", topic, known)};
 }
 
 std::expected<LayerSlot*, Status> Scene::addLayer(std::string_view topic) {

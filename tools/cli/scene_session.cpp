@@ -86,11 +86,7 @@ Result<void> SceneSession::chooseFrame() {
       std::ranges::copy_if(of_data, std::back_inserter(known), [&](const auto& name) {
         return std::ranges::find(of_transforms, name) == of_transforms.end();
       });
-      const auto near = scenegraph::nearNames(frame, known);
-      return usageError(options_.recording.file + ": there is no frame '" + frame + "'" +
-                        (known.empty()  ? "; the recording has none"
-                         : near.empty() ? "; there are " + scenegraph::quotedList(known)
-                                        : "; did you mean " + scenegraph::quotedList(near) + "?"));
+      return usageError(options_.recording.file + ": " + scenegraph::noSuch("frame", frame, known));
     }
   }
   updateFully();

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "scenegraph/near_names.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/json_text.h"
 #include "tools/cli/recording_options.h"
@@ -37,9 +38,18 @@ void printTransform(const tf::RigidTransform& target_from_source, bool is_json) 
   }
 }
 
+/// One sentence; a frame that does not exist is named, with those of nearly that name.
+std::string reasonText(const tf::TransformBuffer& buffer, const tf::LookupFailure& failure, const TfOptions& options) {
+  const bool is_target = failure.code == tf::LookupError::UnknownTarget;
+  if (!is_target && failure.code != tf::LookupError::UnknownSource) {
+    return buffer.describe(failure);
+  }
+  return scenegraph::noSuch("frame", is_target ? options.target : options.source, buffer.frames());
+}
+
 Json failureJson(const tf::TransformBuffer& buffer, const tf::LookupFailure& failure, const TfOptions& options) {
   Json error{{"code", tf::toString(failure.code)},
-             {"message", buffer.describe(failure)},
+             {"message", reasonText(buffer, failure, options)},
              {"target", options.target},
              {"source", options.source},
              {"time_ns", failure.time.ns}};
@@ -79,13 +89,8 @@ Result<void> runTf(const TfOptions& options) {
   if (options.is_json) {
     std::fputs(jsonText(failureJson(buffer, target_from_source.error(), options)).c_str(), stdout);
   }
-  const tf::LookupFailure& reason = target_from_source.error();
-  std::string message = buffer.describe(reason);
-  if (reason.code == tf::LookupError::UnknownTarget || reason.code == tf::LookupError::UnknownSource) {
-    const bool is_target = reason.code == tf::LookupError::UnknownTarget;
-    message += " ('" + (is_target ? options.target : options.source) + "')";
-  }
-  return std::unexpected(CliError{ExitCode::LookupFailed, options.recording.file + ": " + message});
+  return std::unexpected(CliError{
+      ExitCode::LookupFailed, options.recording.file + ": " + reasonText(buffer, target_from_source.error(), options)});
 }
 
 }  // namespace

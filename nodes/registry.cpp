@@ -4,6 +4,7 @@
 
 #include "nodes/grid/grid_layer.h"
 #include "nodes/laser_scan/laser_scan_layer.h"
+#include "nodes/occupancy_grid/occupancy_grid_layer.h"
 #include "nodes/point_cloud/point_cloud_layer.h"
 #include "nodes/tf_axes/tf_axes_layer.h"
 
@@ -16,6 +17,8 @@ std::span<const scenegraph::LayerType> layerTypes() {
       {"tf", "TF", None, &TfAxesLayer::create},
       {"point_cloud", "Point cloud", PointCloud, &PointCloudLayer::create},
       {"laser_scan", "Laser scan", LaserScan, &LaserScanLayer::create},
+      {"occupancy_grid", "Occupancy grid", OccupancyGrid, &OccupancyGridLayer::create,
+       &OccupancyGridLayer::takesOrphan},
   };
   return kTypes;
 }

@@ -32,6 +32,10 @@ struct LayerContext {
 /// One moment of a view.
 struct Tick {
   tf::TimePoint time;
+  /// Place of the layer among those of its type in the view, and their number: flat things in one plane are drawn in
+  /// this order, whatever the distance.
+  std::uint32_t order = 0;
+  std::uint32_t of_type = 1;
 };
 
 /// Numbers a layer reports, by name ("points", "dropped"), in a fixed order.
@@ -79,6 +83,8 @@ struct LayerType {
   std::string_view label;  ///< for people
   ObjectType consumes;     ///< None for a built-in without a topic
   std::unique_ptr<Layer> (*create)(std::string_view topic);
+  /// Whether it is for this topic of another type too, say to tell why that is not drawn; nullptr: for none.
+  bool (*takes)(const ObjectStore& store, const TopicInfo& topic) = nullptr;
 };
 
 }  // namespace stillframe::scenegraph

@@ -102,13 +102,17 @@ std::string Scene::firstSourceFrame() const {
 }
 
 const LayerType* Scene::findType(std::string_view topic) const {
+  const ObjectStore& store = dataset_->store();
   for (const LayerType& type : types_) {
-    if (type.consumes == ObjectType::None ? type.name == topic
-                                          : dataset_->store().findTopic(topic, type.consumes).has_value()) {
+    if (type.consumes == ObjectType::None ? type.name == topic : store.findTopic(topic, type.consumes).has_value()) {
       return &type;
     }
   }
-  return nullptr;
+  const auto id = store.findTopic(topic);
+  const auto taker = std::ranges::find_if(types_, [&](const LayerType& type) {
+    return id && type.takes != nullptr && type.takes(store, store.topic(*id));
+  });
+  return taker != types_.end() ? &*taker : nullptr;
 }
 
 Status Scene::refusal(std::string_view topic) const {
@@ -156,7 +160,8 @@ void Scene::addDefaultLayers() {
   for (TopicId id = 0; id < topics; ++id) {
     const TopicInfo info = dataset_->store().topic(id);
     if (std::ranges::any_of(types_, [&](const LayerType& type) {
-          return info.type != ObjectType::None && type.consumes == info.type;
+          return info.type != ObjectType::None &&
+                 (type.consumes == info.type || (type.takes != nullptr && type.takes(dataset_->store(), info)));
         })) {
       (void)addLayer(info.name);
     }
@@ -186,21 +191,28 @@ bool Scene::update(tf::TimePoint time) {
   Inputs inputs{time, fixedFrame(), dataset_->transforms()->revision(), dataset_->store().revision(), layers_revision_};
   time_ = time;
   frames_.setTick(inputs.fixed_frame, time);
-  for (const auto& slot : layers_) {
-    slot->layer->update(Tick{time});
-  }
+  updateLayers(time);
   if (const std::string settled = fixedFrame(); settled != inputs.fixed_frame) {
     // Without transforms the frame is that of the data, which the layers know only now.
     inputs.fixed_frame = settled;
     frames_.setTick(settled, time);
-    for (const auto& slot : layers_) {
-      slot->layer->update(Tick{time});
-    }
+    updateLayers(time);
   }
   const bool has_new_settings = noteSettings();
   const bool is_same = shown_ == inputs && !has_new_settings && !had_new_work && !had_pending;
   shown_ = std::move(inputs);
   return !is_same;
+}
+
+void Scene::updateLayers(tf::TimePoint time) {
+  const auto isOf = [](const LayerType* type) {
+    return [type](const std::unique_ptr<LayerSlot>& slot) { return slot->type == type; };
+  };
+  for (auto slot = layers_.begin(); slot != layers_.end(); ++slot) {
+    const auto before = std::count_if(layers_.begin(), slot, isOf((*slot)->type));
+    const auto all = std::ranges::count_if(layers_, isOf((*slot)->type));
+    (*slot)->layer->update(Tick{time, static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(all)});
+  }
 }
 
 bool Scene::noteSettings() {

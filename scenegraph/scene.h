@@ -75,6 +75,7 @@ class Scene {
   [[nodiscard]] const LayerType* findType(std::string_view topic) const;
   [[nodiscard]] Status refusal(std::string_view topic) const;
   [[nodiscard]] std::string firstSourceFrame() const;
+  void updateLayers(tf::TimePoint time);
   bool noteSettings();
 
   std::shared_ptr<Dataset> dataset_;

@@ -1,5 +1,6 @@
 #include "nodes/registry.h"
 #include "scenegraph/objects/laser_scan.h"
+#include "tests/nodes/occupancy_grid/grid_builder.h"
 #include "tests/support/layer_contract.h"
 
 namespace stillframe::test {
@@ -48,13 +49,35 @@ void addEmptyScan(DatasetBuilder& builder, std::int64_t log_ns, const std::strin
   builder.at(log_ns, scanAt(log_ns, frame, 0));
 }
 
+void addGrid(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame, unsigned seed) {
+  Random random(seed);
+  std::vector<std::int8_t> cells(300 * (4 + seed % 3));
+  for (std::int8_t& cell : cells) {
+    cell = static_cast<std::int8_t>(static_cast<int>(random.index(256)) - 128);
+  }
+  scenegraph::OccupancyGrid grid = makeGrid(300, cells, frame, 0.05);
+  grid.origin = turn(0.1 * seed, 1, 2, 3);
+  builder.topic("/data", scenegraph::ObjectType::OccupancyGrid).at(log_ns, grid);
+  // Updates after it, before the next.
+  builder.topic("/data_updates", scenegraph::ObjectType::OccupancyGridUpdate);
+  for (const std::int64_t delay : {100_ms, 400_ms, 700_ms}) {
+    builder.at(log_ns + delay, makePatch(static_cast<std::int32_t>(random.index(310)) - 5, 1, 2, {9, 8, 7, 6}, frame));
+  }
+  builder.topic("/data", scenegraph::ObjectType::OccupancyGrid);
+}
+
+void addEmptyGrid(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame) {
+  builder.at(log_ns, makeGrid(0, {}, frame));
+}
+
 }  // namespace
 
 std::vector<LayerCase> layerCases() {
   return {{.type = "grid"},
           {.type = "tf"},
           {.type = "point_cloud", .add = addCloud, .addEmpty = addEmptyCloud},
-          {.type = "laser_scan", .add = addScan, .addEmpty = addEmptyScan}};
+          {.type = "laser_scan", .add = addScan, .addEmpty = addEmptyScan},
+          {.type = "occupancy_grid", .add = addGrid, .addEmpty = addEmptyGrid}};
 }
 
 std::span<const scenegraph::LayerType> typesUnderTest() { return nodes::layerTypes(); }

@@ -1,0 +1,160 @@
+#include "nodes/occupancy_grid/grid_history.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "tf/transform_buffer.h"
+
+namespace stillframe::nodes {
+namespace {
+
+using scenegraph::OccupancyGridUpdate;
+
+// Work is counted in bytes moved; an update costs a little even when it is empty.
+constexpr std::size_t kWorkStep = std::size_t{2} << 20U;
+constexpr std::size_t kWorkOfUpdate = 2048;
+
+/// The update with bytes of its own: those of the message keep a whole chunk of the file alive.
+GridHistory::Update detached(const OccupancyGridUpdate& update) {
+  auto copy = std::make_shared<OccupancyGridUpdate>(update);
+  const auto bytes = std::make_shared<const std::vector<std::byte>>(update.data.bytes.begin(), update.data.bytes.end());
+  copy->data = {*bytes, bytes};
+  return copy;
+}
+
+std::string patchText(const OccupancyGridUpdate& update) {
+  return std::to_string(update.width) + " x " + std::to_string(update.height) + " cells at (" +
+         std::to_string(update.x) + ", " + std::to_string(update.y) + ")";
+}
+
+}  // namespace
+
+GridHistory::GridHistory(GridHeader header, std::span<const std::byte> cells, std::size_t max_bytes)
+    : header_(std::move(header)), max_bytes_(max_bytes), work_step_(kWorkStep) {
+  Checkpoint base;
+  base.state.cells = GridCells(header_, cells);
+  base_bytes_ = base.state.cells.byteSize();
+  checkpoints_.push_back(std::move(base));
+}
+
+std::size_t GridHistory::byteSize() const noexcept {
+  return sizeof(*this) + base_bytes_ + checkpoint_bytes_ + update_bytes_ +
+         ids_.capacity() * (sizeof(std::uint64_t) + sizeof(Update));
+}
+
+void GridHistory::forgetAfter(std::size_t place) {
+  if (head_ && head_->place > place) {
+    head_.reset();
+  }
+  while (checkpoints_.back().place > place) {
+    checkpoints_.pop_back();
+  }
+  for (std::size_t i = place; i < updates_.size(); ++i) {
+    update_bytes_ -= updates_[i] != nullptr ? updates_[i]->byteSize() : 0;
+  }
+  ids_.resize(std::min(ids_.size(), place));
+  updates_.resize(ids_.size());
+}
+
+GridHistory::Update GridHistory::update(std::size_t place, const Fetch& fetch) {
+  if (updates_[place] != nullptr) {
+    return updates_[place];
+  }
+  Update fetched = fetch(place);
+  if (fetched != nullptr && update_bytes_ + fetched->byteSize() <= max_bytes_ / 4) {
+    fetched = detached(*fetched);
+    update_bytes_ += fetched->byteSize();
+    updates_[place] = fetched;
+  }
+  return fetched;
+}
+
+void GridHistory::apply(GridState& state, const Update& update) const {
+  const auto refuse = [&](const std::string& why) {
+    if (state.refused++ == 0) {
+      state.first_refusal = why;
+    }
+  };
+  if (update == nullptr) {
+    refuse("it cannot be decoded");
+    return;
+  }
+  switch (state.cells.apply(*update)) {
+    case PatchOutcome::Clipped:
+      ++state.clipped;
+      ++state.applied;
+      break;
+    case PatchOutcome::Applied:
+      ++state.applied;
+      break;
+    case PatchOutcome::Outside:
+      refuse(patchText(*update) + " lie outside the grid");
+      return;
+    case PatchOutcome::Short:
+      refuse(patchText(*update) + " come with " + std::to_string(update->data.bytes.size()) + " bytes");
+      return;
+  }
+  const std::string_view frame = tf::stripLeadingSlashes(update->frame_id);
+  if (!frame.empty() && frame != header_.frame_id && state.other_frame++ == 0) {
+    state.first_frame = std::string(frame);
+  }
+}
+
+void GridHistory::keep(std::size_t place, const GridState& state, std::size_t own_bytes) {
+  const auto after = std::ranges::upper_bound(checkpoints_, place, {}, &Checkpoint::place);
+  checkpoints_.insert(after, Checkpoint{place, state});
+  checkpoint_bytes_ += own_bytes + state.cells.tiles().size() * sizeof(std::shared_ptr<GridTile>);
+  while (checkpoint_bytes_ > max_bytes_ && checkpoints_.size() > 1) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < checkpoints_.size(); i += 2) {
+      if (kept != i) {
+        checkpoints_[kept] = std::move(checkpoints_[i]);
+      }
+      ++kept;
+    }
+    checkpoints_.resize(kept);
+    work_step_ *= 2;
+    // Exact: what went may live on in what stays.
+    std::unordered_set<const GridTile*> known;
+    checkpoint_bytes_ = 0;
+    for (const Checkpoint& checkpoint : checkpoints_) {
+      const bool is_base = checkpoint.place == 0;
+      checkpoint_bytes_ += is_base ? 0 : checkpoint.state.cells.tiles().size() * sizeof(std::shared_ptr<GridTile>);
+      for (const auto& tile : checkpoint.state.cells.tiles()) {
+        checkpoint_bytes_ += known.insert(tile.get()).second && !is_base ? tile->byteSize() : 0;
+      }
+    }
+  }
+}
+
+GridState GridHistory::at(std::span<const std::uint64_t> ids, const Fetch& fetch) {
+  const auto same = static_cast<std::size_t>(std::ranges::mismatch(ids, ids_).in1 - ids.begin());
+  if (same < std::min(ids.size(), ids_.size())) {
+    forgetAfter(same);
+  }
+  if (ids_.size() < ids.size()) {
+    ids_.assign(ids.begin(), ids.end());
+    updates_.resize(ids_.size());
+  }
+  const auto after = std::ranges::upper_bound(checkpoints_, ids.size(), {}, &Checkpoint::place);
+  const Checkpoint& start = *std::prev(after);
+  if (!head_ || head_->place > ids.size() || head_->place < start.place) {
+    head_ = Head{start.place, 0, start.state};
+  }
+  Head& head = *head_;
+  while (head.place < ids.size()) {
+    const Update patch = update(head.place, fetch);
+    const std::size_t before = head.state.cells.ownBytes();
+    apply(head.state, patch);
+    const std::size_t copied = head.state.cells.ownBytes() - before;
+    head.work += kWorkOfUpdate + 2 * copied + (patch != nullptr ? patch->data.bytes.size() : 0);
+    ++head.place;
+    if (head.work >= work_step_) {
+      keep(head.place, head.state, head.state.cells.ownBytes());
+      head.work = 0;
+    }
+  }
+  return head.state;
+}
+
+}  // namespace stillframe::nodes

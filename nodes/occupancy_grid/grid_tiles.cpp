@@ -1,0 +1,168 @@
+#include "nodes/occupancy_grid/grid_tiles.h"
+
+#include <algorithm>
+#include <cstring>
+#include <osg/BlendFunc>
+#include <osg/Texture2D>
+
+#include "generated/stillframe_nodes/shaders.h"
+#include "nodes/osg_math.h"
+#include "scenegraph/geometry.h"
+
+namespace stillframe::nodes {
+namespace {
+
+constexpr GLenum kR8 = 0x8229;  // OSG's headers name it only for some profiles
+constexpr int kBehindBin = -100;
+constexpr std::uint32_t kMostBins = 8;  // between the opaque bin, 0, and the transparent one, 10
+
+int schemeNumber(const std::string& name) { return name == "costmap" ? 1 : name == "raw" ? 2 : 0; }
+
+osg::ref_ptr<osg::Texture2D> makeTexture(osg::Image* image) {
+  osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+  texture->setResizeNonPowerOfTwoHint(false);
+  texture->setInternalFormat(kR8);
+  texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+  texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+  texture->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_EDGE);
+  texture->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);
+  texture->setImage(image);
+  return texture;
+}
+
+/// The tile's corners in metres and, as texture coordinates, in its own cells.
+osg::ref_ptr<osg::Geometry> makeQuad(const GridHeader& header, std::uint32_t x, std::uint32_t y, const GridTile& tile) {
+  osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+  osg::ref_ptr<osg::Vec2Array> cells = new osg::Vec2Array;
+  for (const auto& [i, j] : {std::pair{0U, 0U}, {tile.width, 0U}, {0U, tile.height}, {tile.width, tile.height}}) {
+    // The same product for the tiles on both sides of an edge: no gap between them.
+    vertices->push_back(osg::Vec3d(header.resolution_m * (x + i), header.resolution_m * (y + j), 0.0));
+    cells->push_back({static_cast<float>(i), static_cast<float>(j)});
+  }
+  osg::ref_ptr<osg::Geometry> quad = scenegraph::makeGeometry();
+  quad->setVertexArray(vertices);
+  quad->setTexCoordArray(0, cells, osg::Array::BIND_PER_VERTEX);
+  quad->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, 4));
+  return quad;
+}
+
+}  // namespace
+
+GridTiles::GridTiles(const std::string& name)
+    : node_(new osg::MatrixTransform),
+      scheme_(new osg::Uniform("u_color_scheme", 0)),
+      alpha_(new osg::Uniform("u_alpha", 1.0F)),
+      step_(new osg::Uniform("u_depth_step", 1.0F)) {
+  namespace shaders = shaders::stillframe_nodes;
+  node_->setName(name);
+  osg::StateSet& state = *node_->getOrCreateStateSet();
+  state.setAttributeAndModes(
+      scenegraph::makeProgram("occupancy_grid", shaders::k_occupancy_grid_vert, shaders::k_occupancy_grid_frag));
+  for (const auto& uniform : {scheme_, alpha_, step_}) {
+    state.addUniform(uniform);
+  }
+  state.addUniform(new osg::Uniform("u_cells", 0));
+  setBin();
+}
+
+void GridTiles::setBin() {
+  osg::StateSet& state = *node_->getStateSet();
+  const bool is_blended = settings_.alpha < 1.0 || settings_.color_scheme == "costmap";
+  const int order = static_cast<int>(std::min(order_, kMostBins));
+  if (is_blended) {
+    // Alpha of the target stays that of an opaque picture.
+    state.setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA),
+                               osg::StateAttribute::ON);
+  } else {
+    state.removeAttribute(osg::StateAttribute::BLENDFUNC);
+    state.removeMode(GL_BLEND);
+  }
+  if (settings_.draw_behind) {
+    // Neither tests nor writes depth, and comes first.
+    state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    state.setRenderBinDetails(kBehindBin + order, "RenderBin");
+  } else {
+    state.removeMode(GL_DEPTH_TEST);
+    if (is_blended) {
+      state.setRenderBinDetails(1 + order, "RenderBin");
+    } else {
+      state.setRenderBinDetails(0, "RenderBin");
+    }
+  }
+}
+
+void GridTiles::apply(const OccupancyGridSettings& settings) {
+  settings_ = settings;
+  scheme_->set(schemeNumber(settings.color_scheme));
+  alpha_->set(static_cast<float>(settings.alpha));
+  setBin();
+}
+
+void GridTiles::setOrder(std::uint32_t order, std::uint32_t of_type) {
+  step_->set(static_cast<float>(of_type > order ? of_type - order : 1));
+  if (order_ != order) {
+    order_ = order;
+    setBin();
+  }
+}
+
+bool GridTiles::hasLayoutOf(const GridHeader& header) const {
+  return shown_ != nullptr && shown_->header.width == header.width && shown_->header.height == header.height &&
+         shown_->header.resolution_m == header.resolution_m;
+}
+
+void GridTiles::show(std::shared_ptr<const GridSnapshot> snapshot) {
+  if (snapshot == shown_) {
+    return;
+  }
+  if (snapshot == nullptr) {
+    node_->removeChildren(0, node_->getNumChildren());
+    tiles_.clear();
+    shown_ = nullptr;
+    return;
+  }
+  const auto& now = snapshot->state.cells.tiles();
+  if (!hasLayoutOf(snapshot->header)) {
+    build(snapshot->header, snapshot->state.cells);
+  } else {
+    const auto& before = shown_->state.cells.tiles();
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (now[i] != before[i] && now[i]->cells != before[i]->cells) {
+        write(tiles_[i], *now[i]);
+      }
+    }
+  }
+  node_->setMatrix(toOsg(snapshot->header.frame_from_grid));
+  shown_ = std::move(snapshot);
+}
+
+void GridTiles::build(const GridHeader& header, const GridCells& cells) {
+  node_->removeChildren(0, node_->getNumChildren());
+  tiles_.clear();
+  for (std::size_t i = 0; i < cells.tiles().size(); ++i) {
+    const GridTile& from = *cells.tiles()[i];
+    const auto column = static_cast<std::uint32_t>(i % cells.tileColumns());
+    const auto row = static_cast<std::uint32_t>(i / cells.tileColumns());
+    Tile tile;
+    tile.geometry = makeQuad(header, column * header.tile_edge, row * header.tile_edge, from);
+    write(tile, from);
+    node_->addChild(tile.geometry);
+    tiles_.push_back(std::move(tile));
+  }
+}
+
+void GridTiles::write(Tile& tile, const GridTile& cells) {
+  const int width = cells.isUniform() ? 1 : static_cast<int>(cells.width);
+  const int height = cells.isUniform() ? 1 : static_cast<int>(cells.height);
+  if (tile.image == nullptr || tile.image->s() != width || tile.image->t() != height) {
+    tile.image = new osg::Image;
+    tile.image->allocateImage(width, height, 1, GL_RED, GL_UNSIGNED_BYTE, 1);
+    tile.image->setInternalTextureFormat(kR8);
+    tile.geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, makeTexture(tile.image));
+  }
+  std::memcpy(tile.image->data(), cells.cells.data(), cells.cells.size());
+  tile.image->dirty();
+  uploaded_bytes_ += cells.cells.size();
+}
+
+}  // namespace stillframe::nodes

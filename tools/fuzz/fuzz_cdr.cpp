@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   schema.name = converters[(data[0] & 0x7Fu) % converters.size()].schema;
   schema.encoding = is_ros1 ? "ros1msg" : "ros2msg";
   schema.data.assign(rest.begin(), end);
-  const auto decoder = ingest::makeDecoder(&schema, is_ros1 ? "ros1" : "cdr");
+  const auto decoder = ingest::makeDecoder(&schema, is_ros1 ? "ros1" : "cdr", "/robot_description");
   if (decoder.decoder != nullptr && end != rest.end()) {
     const auto message = std::as_bytes(std::span(end + 1, rest.end()));
     static_cast<void>(decoder.decoder->decode({message, nullptr, message.size(), {0}}));

@@ -1,6 +1,7 @@
 #include "tools/ingest/mcap_source.h"
 
 #include <array>
+#include <tuple>
 #include <utility>
 
 #include "tools/ingest/field_reader.h"
@@ -44,14 +45,16 @@ Locator Locator::unpack(std::uint64_t bits) noexcept {
 McapSource::McapSource(std::vector<std::shared_ptr<const McapFile>> files)
     : files_(std::move(files)), chunks_(kCachedChunkBytes) {
   for (const auto& file : files_) {
-    std::map<std::pair<std::uint16_t, std::string>, ChannelDecoder> decoders;  // channels share those of their schema
+    // Channels share the decoders of their schema.
+    std::map<std::tuple<std::uint16_t, std::string, std::string>, ChannelDecoder> decoders;
     auto& channels = channels_.emplace_back();
     for (const auto& [id, channel] : file->channels()) {
       const auto schema = file->schemas().find(channel.schema_id);
       const SchemaRecord* known = schema == file->schemas().end() ? nullptr : &schema->second;
-      const auto [decoder, is_new] = decoders.try_emplace({channel.schema_id, channel.message_encoding});
+      const std::string topic = known != nullptr && dependsOnTopic(*known) ? channel.topic : "";
+      const auto [decoder, is_new] = decoders.try_emplace({channel.schema_id, channel.message_encoding, topic});
       if (is_new) {
-        decoder->second = makeDecoder(known, channel.message_encoding);
+        decoder->second = makeDecoder(known, channel.message_encoding, topic);
       }
       channels[id] = {channel.topic, known == nullptr ? "" : known->name, decoder->second};
     }

@@ -9,15 +9,35 @@
 
 namespace stillframe::ingest {
 
-ChannelDecoder makeDecoder(const SchemaRecord* schema, std::string_view message_encoding) {
+namespace {
+
+/// nullptr for a schema that nothing is drawn from.
+const ConverterType* findConverter(const SchemaRecord& schema) {
+  const std::string name = normalizedTypeName(schema.name);
+  const auto converters = converterTypes();
+  const auto found = std::ranges::find(converters, std::string_view(name), &ConverterType::schema);
+  return found == converters.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+bool dependsOnTopic(const SchemaRecord& schema) {
+  const ConverterType* converter = findConverter(schema);
+  return converter != nullptr && !converter->topic_segment.empty();
+}
+
+ChannelDecoder makeDecoder(const SchemaRecord* schema, std::string_view message_encoding, std::string_view topic) {
   if (schema == nullptr) {
     return {scenegraph::ObjectType::None, nullptr, "it has no schema"};
   }
-  const std::string name = normalizedTypeName(schema->name);
-  const auto converters = converterTypes();
-  const auto converter = std::ranges::find(converters, std::string_view(name), &ConverterType::schema);
-  if (converter == converters.end()) {
+  const ConverterType* converter = findConverter(*schema);
+  if (converter == nullptr) {
     return {scenegraph::ObjectType::None, nullptr, sentence("schema '", schema->name, "' is not drawable")};
+  }
+  const std::string_view segment = topic.substr(topic.rfind('/') + 1);  // npos + 1 is 0
+  if (!converter->topic_segment.empty() && segment != converter->topic_segment) {
+    return {scenegraph::ObjectType::None, nullptr,
+            sentence("schema '", schema->name, "' is drawable only on topics named ", converter->topic_segment)};
   }
   auto decoder = converter->create(*schema, message_encoding);
   if (!decoder) {

@@ -38,9 +38,12 @@ struct ChannelDecoder {
   std::string unsupported_reason;                 ///< "" unless type is None
 };
 
-/// The decoder for messages of `schema` (nullptr: the channel has none) in `message_encoding`. A schema that nothing is
-/// drawn from costs one comparison of names: its definition is not even parsed.
-[[nodiscard]] ChannelDecoder makeDecoder(const SchemaRecord* schema, std::string_view message_encoding);
+/// The decoder for messages of `schema` (nullptr: the channel has none) in `message_encoding` on `topic`. A schema that
+/// nothing is drawn from costs one comparison of names: its definition is not even parsed.
+[[nodiscard]] ChannelDecoder makeDecoder(const SchemaRecord* schema, std::string_view message_encoding,
+                                         std::string_view topic);
+/// Whether the topic decides what messages of that schema are: std_msgs/String is a robot on some.
+[[nodiscard]] bool dependsOnTopic(const SchemaRecord& schema);
 
 /// Bytes of a message as a payload: a view, or a copy where the view would keep alive more than eight times its size
 /// (the object cache counts the view).

@@ -12,7 +12,9 @@ struct PlanRunner {
   static constexpr std::size_t kMaxReserved = 4096;  // rows before the bytes for them have been seen
 
   const WirePlan& plan;
+  std::uint64_t row_budget;  // bytes of rows that may still be made
   std::string_view failed_field;
+  bool is_over_budget = false;
 
   template <typename Format>
   bool run(const WirePlan::Steps& steps, WireReader<Format>& reader, void* row) {
@@ -43,8 +45,14 @@ struct PlanRunner {
         return many(op, reader, row);
       case Kind::Number:
         return number(op, reader, op.locate(row));
+      case Kind::Numbers:
+        return numbers(op, reader, op.locate(row));
+      case Kind::Row:
+        return run(plan.steps_[op.target], reader, op.locate(row));
+      case Kind::Texts:
+        return texts(op, reader, *static_cast<std::vector<std::string_view>*>(op.locate(row)));
       case Kind::Text:
-        return reader.text(*static_cast<std::string_view*>(op.locate(row)));
+        return text(op, reader, op.locate(row));
       case Kind::Bytes: {
         std::uint32_t count = op.count;
         return (!op.is_sequence || reader.number(count)) &&
@@ -64,9 +72,16 @@ struct PlanRunner {
     }
     const WirePlan::Steps& element = plan.steps_[op.target];
     std::span<const std::byte> ignored;
-    if (element.min_bytes > 0 && count > reader.left() / element.min_bytes) {
+    const std::uint64_t element_bytes =
+        op.kind == WirePlan::OpKind::Rows ? std::max<std::uint64_t>(element.min_bytes, 1) : element.min_bytes;
+    if (element_bytes > 0 && count > reader.left() / element_bytes) {
       return reader.take(~std::uint64_t{0}, ignored);  // fails, and says so
     }
+    if (std::uint64_t{count} * op.row_bytes > row_budget) {
+      is_over_budget = true;
+      return false;
+    }
+    row_budget -= std::uint64_t{count} * op.row_bytes;
     void* rows = op.locate == nullptr ? nullptr : op.locate(row);
     for (std::uint32_t i = 0; i < count; ++i) {
       void* element_row = rows == nullptr ? nullptr : op.append(rows, std::min<std::size_t>(count, kMaxReserved));
@@ -91,50 +106,125 @@ struct PlanRunner {
   }
 
   template <typename Format>
-  static bool number(const WirePlan::Op& op, WireReader<Format>& reader, void* slot) {
-    switch (op.type) {
+  static bool text(const WirePlan::Op& op, WireReader<Format>& reader, void* slot) {
+    std::string_view view;
+    if (!reader.text(view)) {
+      return false;
+    }
+    if (op.slot == SlotKind::String) {
+      *static_cast<std::string*>(slot) = view;
+    } else {
+      *static_cast<std::string_view*>(slot) = view;
+    }
+    return true;
+  }
+
+  template <typename Format>
+  static bool texts(const WirePlan::Op& op, WireReader<Format>& reader, std::vector<std::string_view>& out) {
+    constexpr std::uint64_t kMinTextBytes = 4;
+    std::uint32_t count = op.count;
+    std::span<const std::byte> ignored;
+    if (op.is_sequence && !reader.number(count)) {
+      return false;
+    }
+    if (count > reader.left() / kMinTextBytes) {
+      return reader.take(~std::uint64_t{0}, ignored);  // fails, and says so
+    }
+    out.resize(count);
+    return std::ranges::all_of(out, [&](std::string_view& text) { return reader.text(text); });
+  }
+
+  template <typename Format>
+  static bool numbers(const WirePlan::Op& op, WireReader<Format>& reader, void* slot) {
+    std::uint32_t count = op.count;
+    std::span<const std::byte> raw;
+    if (op.is_sequence && !reader.number(count)) {
+      return false;
+    }
+    if (count > 0 && (!reader.skip(op.alignment, 0) || !reader.take(count * op.size, raw))) {
+      return false;
+    }
+    switch (op.slot) {
+      case SlotKind::Doubles:
+        return storeMany<Format>(op.type, raw, count, *static_cast<std::vector<double>*>(slot));
+      case SlotKind::Floats:
+        return storeMany<Format>(op.type, raw, count, *static_cast<std::vector<float>*>(slot));
+      default:
+        return storeMany<Format>(op.type, raw, count, *static_cast<std::vector<std::uint32_t>*>(slot));
+    }
+  }
+
+  template <typename Format, typename T>
+  static bool storeMany(WireType type, std::span<const std::byte> raw, std::uint32_t count, std::vector<T>& out) {
+    out.resize(count);
+    return withWireType(type, [&]<typename Wire>(Wire) {
+      if constexpr (std::is_same_v<Wire, T> && !Format::kIsSwapped) {
+        if (!raw.empty()) {
+          std::memcpy(out.data(), raw.data(), raw.size());
+        }
+      } else {
+        for (std::uint32_t i = 0; i < count; ++i) {
+          out[i] = static_cast<T>(loadNumber<Wire, Format::kIsSwapped>(raw.data() + i * sizeof(Wire)));
+        }
+      }
+      return true;
+    });
+  }
+
+  /// Calls `use` with a value of the C++ type of a wire type; false for one that is no number.
+  template <typename Use>
+  static bool withWireType(WireType type, const Use& use) {
+    switch (type) {
       case WireType::Int8:
-        return store<std::int8_t>(op, reader, slot);
+        return use(std::int8_t{});
       case WireType::Bool:
       case WireType::Uint8:
-        return store<std::uint8_t>(op, reader, slot);
+        return use(std::uint8_t{});
       case WireType::Int16:
-        return store<std::int16_t>(op, reader, slot);
+        return use(std::int16_t{});
       case WireType::Uint16:
-        return store<std::uint16_t>(op, reader, slot);
+        return use(std::uint16_t{});
       case WireType::Int32:
-        return store<std::int32_t>(op, reader, slot);
+        return use(std::int32_t{});
       case WireType::Uint32:
-        return store<std::uint32_t>(op, reader, slot);
+        return use(std::uint32_t{});
       case WireType::Int64:
-        return store<std::int64_t>(op, reader, slot);
+        return use(std::int64_t{});
       case WireType::Uint64:
-        return store<std::uint64_t>(op, reader, slot);
+        return use(std::uint64_t{});
       case WireType::Float32:
-        return store<float>(op, reader, slot);
+        return use(float{});
       case WireType::Float64:
-        return store<double>(op, reader, slot);
+        return use(double{});
       default:
         return false;
     }
   }
 
-  template <typename Wire, typename Format>
-  static bool store(const WirePlan::Op& op, WireReader<Format>& reader, void* slot) {
-    Wire value{};
-    if (!reader.number(value)) {
-      return false;
-    }
-    if (op.slot == SlotKind::Double) {
-      *static_cast<double*>(slot) = static_cast<double>(value);
-    } else if constexpr (std::is_integral_v<Wire>) {
-      if (op.slot == SlotKind::Uint32) {
-        *static_cast<std::uint32_t*>(slot) = static_cast<std::uint32_t>(value);
-      } else {
-        *static_cast<bool*>(slot) = value != 0;
+  template <typename Format>
+  static bool number(const WirePlan::Op& op, WireReader<Format>& reader, void* slot) {
+    return withWireType(op.type, [&]<typename Wire>(Wire value) {
+      if (!reader.number(value)) {
+        return false;
       }
-    }
-    return true;
+      switch (op.slot) {
+        case SlotKind::Double:
+          *static_cast<double*>(slot) = static_cast<double>(value);
+          break;
+        case SlotKind::Float:
+          *static_cast<float*>(slot) = static_cast<float>(value);
+          break;
+        case SlotKind::Bool:
+          *static_cast<bool*>(slot) = value != Wire{};
+          break;
+        default:
+          if constexpr (std::is_integral_v<Wire>) {
+            const auto bits = static_cast<std::uint32_t>(value);
+            std::memcpy(slot, &bits, sizeof(bits));
+          }
+      }
+      return true;
+    });
   }
 
   template <typename Format>
@@ -142,6 +232,11 @@ struct PlanRunner {
     WireReader<Format> reader(body);
     if (run(plan.steps_[plan.root_], reader, row)) {
       return {};
+    }
+    if (is_over_budget) {
+      return std::unexpected(scenegraph::DecodeError{
+          "TooManyElements", sentence("the field '", failed_field, "' of a message of ", body.size(),
+                                      " bytes holds more elements than are read")});
     }
     const std::uint64_t wanted = reader.wanted();
     return std::unexpected(scenegraph::DecodeError{
@@ -154,7 +249,7 @@ struct PlanRunner {
 };
 
 std::expected<void, scenegraph::DecodeError> WirePlan::decode(std::span<const std::byte> message, void* row) const {
-  PlanRunner runner{*this, {}};
+  PlanRunner runner{*this, rowBudget(message.size()), {}};
   if (is_ros1_) {
     return runner.decode<Ros1Packed>(message, row);
   }

@@ -23,7 +23,8 @@ class WirePlan {
   [[nodiscard]] static std::expected<WirePlan, std::string> compile(const MessageDefinitions& definitions,
                                                                     const Shape& shape);
   /// Fills `row`, an object of the struct the shape was made for, from a message: CDR with its encapsulation header for
-  /// a ROS 2 definition, packed for a ROS 1 one. Codes: "TruncatedMessage", "BadEncapsulation".
+  /// a ROS 2 definition, packed for a ROS 1 one. Codes: "TruncatedMessage", "BadEncapsulation",
+  /// "TooManyElements".
   [[nodiscard]] std::expected<void, scenegraph::DecodeError> decode(std::span<const std::byte> message,
                                                                     void* row) const;
 
@@ -36,10 +37,13 @@ class WirePlan {
     SkipSequence,  ///< a count, then that many times `size` bytes
     SkipText,      ///< a count, then that many times `size` bytes, aligned only when there are some
     SkipMany,      ///< elements of plan `target`
-    Number,        ///< a value of wire type `type` into a Double, Uint32 or Bool
+    Number,        ///< a value of wire type `type` into the slot
+    Numbers,       ///< many of them into a vector
     Text,
+    Texts,
     Bytes,
     Stamp,
+    Row,   ///< plan `target`, into the row that the slot is
     Rows,  ///< elements of plan `target`, one row each
   };
   struct Op {
@@ -53,6 +57,7 @@ class WirePlan {
     std::size_t target = 0;
     void* (*locate)(void*) = nullptr;
     void* (*append)(void*, std::size_t) = nullptr;
+    std::size_t row_bytes = 0;  ///< Rows: size of one
   };
   /// The steps of one message; names[i] is the field of ops[i].
   struct Steps {

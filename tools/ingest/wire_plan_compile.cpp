@@ -51,16 +51,24 @@ bool fits(WireType type, SlotKind slot) {
   const bool is_number = size > 0 && type != WireType::Time && type != WireType::Duration;
   switch (slot) {
     case SlotKind::Double:
+    case SlotKind::Float:
+    case SlotKind::Doubles:
+    case SlotKind::Floats:
       return is_number && type != WireType::Bool;
     case SlotKind::Uint32:
+    case SlotKind::Int32:
+    case SlotKind::Uint32s:
       return is_number && !is_float && size <= 4;
     case SlotKind::Bool:
       return is_number && !is_float;
     case SlotKind::Text:
+    case SlotKind::String:
+    case SlotKind::Texts:
       return type == WireType::String;
     case SlotKind::Bytes:
       return size == 1;
     case SlotKind::Stamp:
+    case SlotKind::Row:
     case SlotKind::Rows:
       break;
   }
@@ -149,8 +157,10 @@ class PlanCompiler {
         return done;
       }
     }
-    if (!wanted.empty()) {
-      return std::unexpected(sentence(definition.name, " has no field '", wanted[0].path, "'"));
+    for (const Wanted& missing : wanted) {
+      if (!missing.binding->is_optional) {
+        return std::unexpected(sentence(definition.name, " has no field '", missing.path, "'"));
+      }
     }
     if (definition.fields.empty()) {
       skipEmpty(steps);
@@ -168,19 +178,21 @@ class PlanCompiler {
     op.slot = binding.kind;
     op.locate = binding.locate;
     op.append = binding.append;
+    op.row_bytes = binding.row_bytes;
     op.is_sequence = field.array == Array::Sequence;
     op.count = field.array == Array::Fixed ? field.length : 1;
     const bool is_array = field.array != Array::None;
     switch (binding.kind) {
+      case SlotKind::Row:
       case SlotKind::Rows: {
-        if (!is_array || field.type != WireType::Message) {
+        if (is_array != (binding.kind == SlotKind::Rows) || field.type != WireType::Message) {
           return mismatch();
         }
         const auto target = compileRow(field.message, *binding.row);
         if (!target) {
           return std::unexpected(target.error());
         }
-        op.kind = OpKind::Rows;
+        op.kind = is_array ? OpKind::Rows : OpKind::Row;
         op.target = *target;
         add(steps, op, field.name, repeated(op, plan_.steps_[*target].min_bytes));
         return {};
@@ -202,24 +214,42 @@ class PlanCompiler {
         op.kind = OpKind::Bytes;
         add(steps, op, field.name, repeated(op, 1));
         return {};
+      case SlotKind::Doubles:
+      case SlotKind::Floats:
+      case SlotKind::Uint32s:
+      case SlotKind::Texts: {
+        if (!is_array || !fits(field.type, binding.kind)) {
+          return mismatch();
+        }
+        const Extent extent = extentOf(field.type);
+        op.kind = binding.kind == SlotKind::Texts ? OpKind::Texts : OpKind::Numbers;
+        op.size = extent.size;
+        op.alignment = extent.alignment;
+        add(steps, op, field.name, repeated(op, extent.size > 0 ? extent.size : 4));
+        return {};
+      }
       case SlotKind::Text:
+      case SlotKind::String:
       case SlotKind::Double:
+      case SlotKind::Float:
       case SlotKind::Uint32:
+      case SlotKind::Int32:
       case SlotKind::Bool:
         break;
     }
     if (is_array || !fits(field.type, binding.kind)) {
       return mismatch();
     }
-    op.kind = binding.kind == SlotKind::Text ? OpKind::Text : OpKind::Number;
-    add(steps, op, field.name, binding.kind == SlotKind::Text ? 4 : extentOf(field.type).size);
+    const bool is_text = field.type == WireType::String;
+    op.kind = is_text ? OpKind::Text : OpKind::Number;
+    add(steps, op, field.name, is_text ? 4 : extentOf(field.type).size);
     return {};
   }
 
   /// Type of the seconds of a time: a ROS 1 primitive, or a message of just seconds and nanoseconds.
   [[nodiscard]] std::optional<WireType> secondsType(const FieldDefinition& field) const {
-    if (field.type == WireType::Time) {
-      return WireType::Uint32;
+    if (field.type == WireType::Time || field.type == WireType::Duration) {
+      return field.type == WireType::Time ? WireType::Uint32 : WireType::Int32;
     }
     if (field.type != WireType::Message) {
       return std::nullopt;

@@ -28,6 +28,16 @@ struct Ros1Packed {
   static constexpr bool kHasTerminator = false;
 };
 
+/// A number at any address.
+template <typename T, bool IsSwapped>
+[[nodiscard]] T loadNumber(const std::byte* bytes) noexcept {
+  std::byte raw[sizeof(T)];
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    raw[i] = bytes[IsSwapped ? sizeof(T) - 1 - i : i];
+  }
+  return std::bit_cast<T>(raw);
+}
+
 /// Reads values off a serialised message, never past its end; `Format` is one of the above.
 ///
 /// Every call says whether the bytes were there. Alignment counts from the first byte of the span. One thread.
@@ -61,15 +71,7 @@ class WireReader {
       wanted_ = sizeof(T);
       return false;
     }
-    if constexpr (Format::kIsSwapped && sizeof(T) > 1) {
-      std::byte raw[sizeof(T)];
-      for (std::size_t i = 0; i < sizeof(T); ++i) {
-        raw[i] = bytes_[position_ + sizeof(T) - 1 - i];
-      }
-      std::memcpy(&out, raw, sizeof(T));
-    } else {
-      std::memcpy(&out, bytes_.data() + position_, sizeof(T));
-    }
+    out = loadNumber<T, Format::kIsSwapped>(bytes_.data() + position_);
     position_ += sizeof(T);
     return true;
   }

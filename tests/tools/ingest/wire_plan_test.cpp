@@ -20,7 +20,7 @@ SchemaRecord schema(std::string name, std::string_view text, std::string encodin
 MessageView view(const std::vector<std::byte>& bytes) { return {bytes, nullptr, bytes.size(), {0}}; }
 
 ChannelDecoder decoderFor(const SchemaRecord& record, std::string_view encoding = "cdr") {
-  auto decoder = makeDecoder(&record, encoding);
+  auto decoder = makeDecoder(&record, encoding, "/topic");
   EXPECT_EQ(decoder.unsupported_reason, "");
   return decoder;
 }
@@ -190,10 +190,10 @@ TEST(WirePlan, RefusesOtherEncapsulations) {
 
 TEST(MakeDecoder, SaysWhyATopicIsNotDrawn) {
   const auto reason = [](const SchemaRecord& record, std::string_view encoding) {
-    return makeDecoder(&record, encoding).unsupported_reason;
+    return makeDecoder(&record, encoding, "/topic").unsupported_reason;
   };
   using testing::HasSubstr;
-  EXPECT_EQ(makeDecoder(nullptr, "cdr").unsupported_reason, "it has no schema");
+  EXPECT_EQ(makeDecoder(nullptr, "cdr", "/topic").unsupported_reason, "it has no schema");
   EXPECT_EQ(reason(schema("std_msgs/msg/Odd", "garbage ("), "cdr"), "schema 'std_msgs/msg/Odd' is not drawable");
   EXPECT_EQ(reason(schema("tf2_msgs/TFMessage", test::tfDefinition()), "wrong_format"),
             "encoding 'wrong_format' is not supported");

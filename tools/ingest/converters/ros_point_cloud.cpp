@@ -2,7 +2,8 @@
 #include "scenegraph/objects/point_cloud.h"
 #include "tf/transform_buffer.h"
 #include "tools/ingest/converters/converters.h"
-#include "tools/ingest/converters/ros_decoder.h"
+#include "tools/ingest/converters/row_decoder.h"
+#include "tools/ingest/converters/shapes.h"
 
 namespace stillframe::ingest::converters {
 
@@ -15,7 +16,7 @@ struct PointFieldRow {
   std::uint32_t count = 0;
 };
 
-struct CloudRow {
+struct RosCloudRow {
   tf::TimePoint stamp;
   std::string_view frame_id;
   std::uint32_t height = 0;
@@ -35,20 +36,20 @@ Shape cloudShape() {
       .field<&PointFieldRow::datatype>("datatype")
       .field<&PointFieldRow::count>("count");
   Shape cloud;
-  cloud.field<&CloudRow::stamp>("header.stamp")
-      .field<&CloudRow::frame_id>("header.frame_id")
-      .field<&CloudRow::height>("height")
-      .field<&CloudRow::width>("width")
-      .rows<&CloudRow::fields>("fields", std::move(field))
-      .field<&CloudRow::is_bigendian>("is_bigendian")
-      .field<&CloudRow::point_step>("point_step")
-      .field<&CloudRow::row_step>("row_step")
-      .field<&CloudRow::data>("data")
-      .field<&CloudRow::is_dense>("is_dense");
+  cloud.field<&RosCloudRow::stamp>("header.stamp")
+      .field<&RosCloudRow::frame_id>("header.frame_id")
+      .field<&RosCloudRow::height>("height")
+      .field<&RosCloudRow::width>("width")
+      .rows<&RosCloudRow::fields>("fields", std::move(field))
+      .field<&RosCloudRow::is_bigendian>("is_bigendian")
+      .field<&RosCloudRow::point_step>("point_step")
+      .field<&RosCloudRow::row_step>("row_step")
+      .field<&RosCloudRow::data>("data")
+      .field<&RosCloudRow::is_dense>("is_dense");
   return cloud;
 }
 
-scenegraph::AnyObject convert(const CloudRow& row, const MessageView& message) {
+RowDecoder<RosCloudRow>::Result convert(RosCloudRow& row, const MessageView& message) {
   scenegraph::PointCloud cloud;
   cloud.stamp = row.stamp;
   cloud.frame_id = tf::stripLeadingSlashes(row.frame_id);
@@ -60,10 +61,7 @@ scenegraph::AnyObject convert(const CloudRow& row, const MessageView& message) {
   cloud.is_dense = row.is_dense;
   cloud.color_packing = scenegraph::ColorPacking::PclWord;
   for (const PointFieldRow& field : row.fields) {
-    const bool is_known = field.datatype <= static_cast<std::uint32_t>(scenegraph::FieldType::Float64);
-    cloud.fields.push_back(
-        {std::string(field.name), field.offset,
-         is_known ? static_cast<scenegraph::FieldType>(field.datatype) : scenegraph::FieldType::Unknown, field.count});
+    cloud.fields.push_back({std::string(field.name), field.offset, fieldType(field.datatype), field.count});
   }
   cloud.data = payloadOf(row.data, message);
   return scenegraph::AnyObject::make(std::move(cloud));
@@ -72,7 +70,7 @@ scenegraph::AnyObject convert(const CloudRow& row, const MessageView& message) {
 }  // namespace
 
 Created rosPointCloud(const SchemaRecord& schema, std::string_view message_encoding) {
-  return RosDecoder<CloudRow>::create(schema, message_encoding, cloudShape(), convert);
+  return RowDecoder<RosCloudRow>::create(schema, message_encoding, cloudShape(), convert);
 }
 
 }  // namespace stillframe::ingest::converters

@@ -62,9 +62,7 @@ glm::dmat4 reverseZOrthographic(double vertical_extent_m, double aspect, double 
 }
 
 glm::dmat4 projection(const CameraView& view, double aspect) {
-  // An orthographic picture has no horizon: 1e7 m on either side holds a scene at any geodetic offset.
-  constexpr double kHalfDepthM = 1e7;
-  return view.is_orthographic ? reverseZOrthographic(view.vertical_extent_m, aspect, kHalfDepthM)
+  return view.is_orthographic ? reverseZOrthographic(view.vertical_extent_m, aspect, view.half_depth_m)
                               : reverseZInfinitePerspective(view.vertical_fov_rad, aspect, view.near_m);
 }
 

@@ -12,6 +12,7 @@ struct CameraView {
   double vertical_fov_rad = 0.87266462599716477;  ///< perspective: 50 degrees
   double vertical_extent_m = 10.0;                ///< orthographic: height of the picture
   double near_m = 0.01;                           ///< perspective: nothing nearer is drawn
+  double half_depth_m = 1e4;  ///< orthographic: what is drawn before and behind the eye; depth resolves 1.2e-7 of it
 };
 
 /// Right-handed look-at, safe when `up` is (nearly) along the line of sight or eye and target coincide.

@@ -86,9 +86,33 @@ TEST_F(OffscreenRendererTest, GivesDepthInMetresForAnOrthographicView) {
   CameraView view = lookDown(3.0);
   view.is_orthographic = true;
   view.vertical_extent_m = 10.0;
-  const Picture picture = draw(view, 50, 50);
-  EXPECT_NEAR(depth(picture, 25, 25), 2.0, 1.2);  // a 24-bit mantissa over 2e7 m
-  EXPECT_EQ(depth(picture, 1, 1), std::numeric_limits<float>::infinity());
+  for (const double half_depth_m : {1e2, 1e4, 1e6}) {
+    view.half_depth_m = half_depth_m;
+    const Picture picture = draw(view, 50, 50);
+    EXPECT_NEAR(depth(picture, 25, 25), 2.0, 1.2e-7 * half_depth_m) << half_depth_m;  // 24 bits over twice that
+    EXPECT_EQ(depth(picture, 1, 1), std::numeric_limits<float>::infinity());
+  }
+}
+
+TEST_F(OffscreenRendererTest, SeparatesMillimetresInAnOrthographicViewOnTheEarthsSurface) {
+  // Half the picture each: the nearer quad drawn first, the nearer drawn last; 5 mm between them.
+  const glm::dvec3 ecef{-2694892.0, -4297557.0, 3854577.0};
+  const auto add = [&](double x, double z, const osg::Vec4& color) {
+    osg::ref_ptr<osg::MatrixTransform> place =
+        new osg::MatrixTransform{osg::Matrixd::translate(ecef.x + x, ecef.y, ecef.z + z)};
+    place->addChild(makeQuad(1.0F, 2.0F, 0.0F, color));
+    root_->addChild(place);
+  };
+  add(-1.0, 0.005, {1, 0, 0, 1});
+  add(-1.0, 0.0, {0, 1, 0, 1});
+  add(1.0, 0.0, {0, 1, 0, 1});
+  add(1.0, 0.005, {1, 0, 0, 1});
+  CameraView view{.eye_from_fixed = lookAt(ecef + glm::dvec3(0, 0, 50), ecef, {0, 1, 0})};
+  view.is_orthographic = true;
+  view.vertical_extent_m = 4.0;
+  const Picture picture = draw(view, 64, 64);
+  EXPECT_EQ(pixel(picture, 16, 32), (std::array{255, 0, 0}));
+  EXPECT_EQ(pixel(picture, 48, 32), (std::array{255, 0, 0}));
 }
 
 TEST_F(OffscreenRendererTest, SeparatesNearAndFarInOnePicture) {

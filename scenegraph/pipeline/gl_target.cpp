@@ -4,14 +4,20 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include <algorithm>
+
+#include "scenegraph/pipeline/half_float.h"
+
 namespace stillframe::scenegraph::gl {
 namespace {
 
-std::vector<float> read(GLuint texture, GLenum format, std::size_t channels, int width_px, int height_px) {
-  std::vector<float> values(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * channels);
+/// Texels of level 0, `channels` values each.
+template <typename T>
+std::vector<T> read(GLuint texture, GLenum format, GLenum type, std::size_t channels, int width_px, int height_px) {
+  std::vector<T> values(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * channels);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glGetTextureImage(texture, 0, format, GL_FLOAT, static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
+  glPixelStorei(GL_PACK_ALIGNMENT, 2);
+  glGetTextureImage(texture, 0, format, type, static_cast<GLsizei>(values.size() * sizeof(T)), values.data());
   return values;
 }
 
@@ -32,11 +38,15 @@ std::uint32_t incompleteStatus(std::uint32_t color_texture, std::uint32_t depth_
 }
 
 std::vector<float> readColor(std::uint32_t texture, int width_px, int height_px) {
-  return read(texture, GL_RGBA, 4, width_px, height_px);
+  // As the halves they are: the driver takes longer to make floats of them.
+  const auto halves = read<std::uint16_t>(texture, GL_RGBA, GL_HALF_FLOAT, 4, width_px, height_px);
+  std::vector<float> values(halves.size());
+  std::ranges::transform(halves, values.begin(), floatFromHalf);
+  return values;
 }
 
 std::vector<float> readDepth(std::uint32_t texture, int width_px, int height_px) {
-  return read(texture, GL_DEPTH_COMPONENT, 1, width_px, height_px);
+  return read<float>(texture, GL_DEPTH_COMPONENT, GL_FLOAT, 1, width_px, height_px);
 }
 
 }  // namespace stillframe::scenegraph::gl

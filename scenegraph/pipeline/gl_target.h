@@ -11,9 +11,9 @@ void bindFramebuffer(std::uint32_t fbo);
 [[nodiscard]] bool isEnabled(std::uint32_t capability);
 /// Status of a framebuffer with these two textures; 0 when it can be drawn into.
 [[nodiscard]] std::uint32_t incompleteStatus(std::uint32_t color_texture, std::uint32_t depth_texture);
-/// Texels of level 0 as float RGBA, bottom row first; waits for the GPU.
+/// Texels of level 0 of a half-float texture as RGBA, bottom row first; waits for the GPU.
 [[nodiscard]] std::vector<float> readColor(std::uint32_t texture, int width_px, int height_px);
-/// The same of a depth texture, one float a pixel.
+/// The same of a 32-bit float depth texture, one float a pixel.
 [[nodiscard]] std::vector<float> readDepth(std::uint32_t texture, int width_px, int height_px);
 
 }  // namespace stillframe::scenegraph::gl

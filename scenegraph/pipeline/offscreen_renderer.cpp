@@ -32,24 +32,26 @@ class MetresFromDepth {
   double zz_, zw_, wz_, ww_;
 };
 
-Picture toPicture(const LinearFrame& frame, const RenderOptions& options, const glm::dmat4& clip_from_eye) {
-  Picture picture{.width = options.width, .height = options.height, .rgba = {}, .depth_m = {}};
-  picture.rgba.resize(frame.rgba.size());
-  picture.depth_m.resize(frame.depth.size());
-  const auto width = static_cast<std::size_t>(options.width);
-  const auto height = static_cast<std::size_t>(options.height);
-  const MetresFromDepth metres{clip_from_eye};
-  for (std::size_t row = 0; row < height; ++row) {
-    const std::size_t from = (height - 1 - row) * width;
-    const std::size_t to = row * width;
-    for (std::size_t column = 0; column < width; ++column) {
-      const float* source = &frame.rgba[(from + column) * 4];
-      float* target = &picture.rgba[(to + column) * 4];
-      std::copy_n(source, 3, target);
-      target[3] = 1.0F;  // blending over an opaque background leaves a meaningless alpha
-      picture.depth_m[to + column] = metres(frame.depth[from + column]);
-    }
+/// Top row first, in place.
+void flipRows(std::vector<float>& values, std::size_t rows) {
+  const auto stride = static_cast<std::ptrdiff_t>(values.size() / rows);
+  for (auto low = values.begin(), high = values.end() - stride; low < high; low += stride, high -= stride) {
+    std::swap_ranges(low, low + stride, high);
   }
+}
+
+Picture toPicture(LinearFrame frame, const RenderOptions& options, const glm::dmat4& clip_from_eye) {
+  Picture picture{.width = options.width,
+                  .height = options.height,
+                  .rgba = std::move(frame.rgba),
+                  .depth_m = std::move(frame.depth)};
+  const auto rows = static_cast<std::size_t>(options.height);
+  flipRows(picture.rgba, rows);
+  flipRows(picture.depth_m, rows);
+  for (std::size_t i = 3; i < picture.rgba.size(); i += 4) {
+    picture.rgba[i] = 1.0F;  // blending over an opaque background leaves a meaningless alpha
+  }
+  std::ranges::transform(picture.depth_m, picture.depth_m.begin(), MetresFromDepth{clip_from_eye});
   return picture;
 }
 

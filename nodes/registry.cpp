@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "nodes/compressed_cloud/compressed_cloud_layer.h"
 #include "nodes/grid/grid_layer.h"
 #include "nodes/laser_scan/laser_scan_layer.h"
 #include "nodes/occupancy_grid/occupancy_grid_layer.h"
@@ -19,6 +20,7 @@ std::span<const scenegraph::LayerType> layerTypes() {
       {"laser_scan", "Laser scan", LaserScan, &LaserScanLayer::create},
       {"occupancy_grid", "Occupancy grid", OccupancyGrid, &OccupancyGridLayer::create,
        &OccupancyGridLayer::takesOrphan},
+      {"compressed_cloud", "Compressed cloud", CompressedPointCloud, &createCompressedCloudLayer},
   };
   return kTypes;
 }

@@ -1,6 +1,8 @@
 #include "nodes/registry.h"
+#include "scenegraph/objects/compressed_point_cloud.h"
 #include "scenegraph/objects/laser_scan.h"
 #include "tests/nodes/occupancy_grid/grid_builder.h"
+#include "tests/support/cloudini_writer.h"
 #include "tests/support/layer_contract.h"
 
 namespace stillframe::test {
@@ -70,6 +72,38 @@ void addEmptyGrid(DatasetBuilder& builder, std::int64_t log_ns, const std::strin
   builder.at(log_ns, makeGrid(0, {}, frame));
 }
 
+/// Floats x, y, z, intensity as a Cloudini blob.
+void addCompressed(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame,
+                   const std::vector<float>& values) {
+  using nodes::cloudini::ValueType;
+  nodes::cloudini::Header header;
+  header.version = 5;
+  header.width = static_cast<std::uint32_t>(values.size() / 4);
+  header.point_step = 16;
+  header.fields = {{"x", 0, ValueType::Float32, 0.001F},
+                   {"y", 4, ValueType::Float32, 0.001F},
+                   {"z", 8, ValueType::Float32, 0.001F},
+                   {"intensity", 12, ValueType::Float32, {}}};
+  scenegraph::CompressedPointCloud cloud;
+  cloud.frame_id = frame;
+  cloud.format = "cloudini";
+  cloud.data = toPayload(writeCloudini(header, std::as_bytes(std::span(values))));
+  builder.at(log_ns, std::move(cloud));
+}
+
+void addCompressedCloud(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame, unsigned seed) {
+  Random random(seed);
+  std::vector<float> values(4 * (5 + seed % 3));
+  for (float& value : values) {
+    value = static_cast<float>(random.number(-5, 5));
+  }
+  addCompressed(builder, log_ns, frame, values);
+}
+
+void addEmptyCompressedCloud(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame) {
+  addCompressed(builder, log_ns, frame, {});
+}
+
 }  // namespace
 
 std::vector<LayerCase> layerCases() {
@@ -77,7 +111,8 @@ std::vector<LayerCase> layerCases() {
           {.type = "tf"},
           {.type = "point_cloud", .add = addCloud, .addEmpty = addEmptyCloud},
           {.type = "laser_scan", .add = addScan, .addEmpty = addEmptyScan},
-          {.type = "occupancy_grid", .add = addGrid, .addEmpty = addEmptyGrid}};
+          {.type = "occupancy_grid", .add = addGrid, .addEmpty = addEmptyGrid},
+          {.type = "compressed_cloud", .add = addCompressedCloud, .addEmpty = addEmptyCompressedCloud}};
 }
 
 std::span<const scenegraph::LayerType> typesUnderTest() { return nodes::layerTypes(); }

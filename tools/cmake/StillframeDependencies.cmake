@@ -8,6 +8,11 @@ find_package(fastcdr REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(LZ4 REQUIRED IMPORTED_TARGET liblz4)
 find_package(ZLIB REQUIRED)
+# Draco's own package names its include folder without SYSTEM.
+pkg_check_modules(DRACO REQUIRED draco)
+add_library(stillframe_draco INTERFACE)
+target_include_directories(stillframe_draco SYSTEM INTERFACE ${DRACO_INCLUDE_DIRS})
+target_link_libraries(stillframe_draco INTERFACE ${DRACO_LINK_LIBRARIES})
 
 if(STILLFRAME_GL)
   find_package(OpenSceneGraph 3.6.5 REQUIRED COMPONENTS osg osgDB osgGA osgText osgUtil osgViewer)

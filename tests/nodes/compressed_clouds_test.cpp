@@ -1,0 +1,120 @@
+// The layer of compressed clouds: decoded off the view, once, and drawn as any cloud is.
+#include <gmock/gmock.h>
+
+#include <cstring>
+
+#include "nodes/points/colormap.h"
+#include "scenegraph/objects/compressed_point_cloud.h"
+#include "tests/nodes/scene_picture.h"
+#include "tests/support/cloudini_writer.h"
+
+namespace stillframe::test {
+namespace {
+
+using scenegraph::CompressedPointCloud;
+using scenegraph::ObjectType;
+using scenegraph::StatusLevel;
+using testing::HasSubstr;
+
+/// Points at x = -8, 0, 8 with intensities 10, 20, 30.
+CompressedPointCloud threePoints() {
+  nodes::cloudini::Header header;
+  header.version = 5;
+  header.width = 3;
+  header.point_step = 16;
+  header.fields = {{"x", 0, nodes::cloudini::ValueType::Float32, 0.001F},
+                   {"y", 4, nodes::cloudini::ValueType::Float32, 0.001F},
+                   {"z", 8, nodes::cloudini::ValueType::Float32, 0.001F},
+                   {"intensity", 12, nodes::cloudini::ValueType::Float32, {}}};
+  const float points[] = {-8, 0, 0, 10, 0, 0, 0, 20, 8, 0, 0, 30};
+  CompressedPointCloud cloud;
+  cloud.frame_id = "lidar";
+  cloud.format = "cloudini";
+  cloud.data = toPayload(writeCloudini(header, std::as_bytes(std::span(points))));
+  return cloud;
+}
+
+CompressedPointCloud cutShort() {
+  CompressedPointCloud cloud = threePoints();
+  cloud.data.bytes = cloud.data.bytes.first(cloud.data.bytes.size() - 5);
+  return cloud;
+}
+
+CompressedPointCloud ofFormat(const std::string& format) {
+  CompressedPointCloud cloud = threePoints();
+  cloud.format = format;
+  return cloud;
+}
+
+DatasetBuilder withTransforms() {
+  DatasetBuilder builder;
+  builder.topic("/tf", ObjectType::FrameTransforms).transform(0, "map", "lidar");
+  builder.topic("/points", ObjectType::CompressedPointCloud);
+  return builder;
+}
+
+void expectColor(const Bytes3& pixel, double t) {
+  const nodes::Rgb color = nodes::findColormap("turbo")->at(t);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(pixel[i], color[i] * 255.0F, 3.0) << "at t = " << t;
+  }
+}
+
+using CompressedCloudPicture = ScenePictureTest;
+
+TEST_F(CompressedCloudPicture, IsThatOfTheDecodedCloud) {
+  open(withTransforms().at(1_s, threePoints()).build(), "map");
+  const auto& layer = add("/points", {{"point_size", "9"}});
+  const auto picture = draw(1_s, fromAbove());
+  EXPECT_EQ(layer.status(), scenegraph::Status{});
+  expectColor(pixel(picture, 20, 100), 0.0);
+  expectColor(pixel(picture, 100, 100), 0.5);
+  expectColor(pixel(picture, 180, 100), 1.0);
+  EXPECT_EQ(drawnPixels(picture), 3 * 81);
+  EXPECT_EQ(layer.counts(), (scenegraph::LayerCounts{{"points", 3}, {"dropped", 0}, {"bytes", 48}}));
+}
+
+TEST_F(CompressedCloudPicture, IsPlacedByItsPose) {
+  CompressedPointCloud cloud = threePoints();
+  cloud.pose = turn(1.5707963267948966, 2.0, 0.0, 0.0);
+  open(withTransforms().at(1_s, cloud).build(), "map");
+  add("/points", {{"point_size", "9"}});
+  const auto picture = draw(1_s, fromAbove());
+  expectColor(pixel(picture, 120, 180), 0.0);
+  expectColor(pixel(picture, 120, 100), 0.5);
+  expectColor(pixel(picture, 120, 20), 1.0);
+}
+
+TEST_F(CompressedCloudPicture, IsEmptyForABlobThatCannotBeDecodedAndItIsTriedOnce) {
+  auto builder = withTransforms();
+  open(builder.at(1_s, threePoints()).at(2_s, cutShort()).at(3_s, threePoints()).build(), "map");
+  const auto& layer = add("/points", {{"point_size", "9"}});
+  EXPECT_GT(drawnPixels(draw(1_s, fromAbove())), 0);
+  EXPECT_EQ(drawnPixels(draw(2_s, fromAbove())), 0);
+  EXPECT_EQ(layer.status().code, "CorruptCloud");
+  EXPECT_EQ(layer.status().level, StatusLevel::Error);
+  EXPECT_THAT(layer.status().message, HasSubstr("'/points'"));
+  EXPECT_GT(drawnPixels(draw(3_s, fromAbove())), 0);
+  EXPECT_EQ(layer.status(), scenegraph::Status{});
+  const std::size_t decoded = builder.source().decodeCount();
+  for (const std::int64_t time : {2_s, 3_s, 1_s, 2_s, 2_s}) {
+    (void)draw(time, fromAbove());
+  }
+  EXPECT_EQ(builder.source().decodeCount(), decoded);
+}
+
+TEST_F(CompressedCloudPicture, SaysWhichFormatsItReads) {
+  open(withTransforms().at(1_s, ofFormat("zstd")).at(2_s, ofFormat("laszip")).at(3_s, ofFormat("draco")).build(),
+       "map");
+  const auto& layer = add("/points");
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+  EXPECT_EQ(layer.status().code, "UnknownFormat");
+  EXPECT_THAT(layer.status().message, HasSubstr("zstd clouds do not describe themselves"));
+  EXPECT_EQ(drawnPixels(draw(2_s, fromAbove())), 0);
+  EXPECT_THAT(layer.status().message, HasSubstr("'laszip' is not known"));
+  EXPECT_EQ(drawnPixels(draw(3_s, fromAbove())), 0);
+  EXPECT_EQ(layer.status().code, "MalformedHeader") << "what is within is not what the format says";
+}
+
+}  // namespace
+}  // namespace stillframe::test

@@ -4,6 +4,7 @@
 
 #include "nodes/compressed_cloud/compressed_cloud_layer.h"
 #include "nodes/grid/grid_layer.h"
+#include "nodes/grid_map/grid_map_layer.h"
 #include "nodes/laser_scan/laser_scan_layer.h"
 #include "nodes/occupancy_grid/occupancy_grid_layer.h"
 #include "nodes/point_cloud/point_cloud_layer.h"
@@ -21,6 +22,7 @@ std::span<const scenegraph::LayerType> layerTypes() {
       {"occupancy_grid", "Occupancy grid", OccupancyGrid, &OccupancyGridLayer::create,
        &OccupancyGridLayer::takesOrphan},
       {"compressed_cloud", "Compressed cloud", CompressedPointCloud, &createCompressedCloudLayer},
+      {"grid_map", "Grid map", GridMap, &GridMapLayer::create},
   };
   return kTypes;
 }

@@ -1,6 +1,9 @@
+#include <cmath>
+
 #include "nodes/registry.h"
 #include "scenegraph/objects/compressed_point_cloud.h"
 #include "scenegraph/objects/laser_scan.h"
+#include "tests/nodes/grid_map_builder.h"
 #include "tests/nodes/occupancy_grid/grid_builder.h"
 #include "tests/support/cloudini_writer.h"
 #include "tests/support/layer_contract.h"
@@ -104,6 +107,18 @@ void addEmptyCompressedCloud(DatasetBuilder& builder, std::int64_t log_ns, const
   addCompressed(builder, log_ns, frame, {});
 }
 
+void addMap(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame, unsigned seed) {
+  Random random(seed);
+  GridMapBuilder map(4, 3 + seed % 2);
+  map.frame(frame).layer("elevation", [&](auto, auto) { return random.number(-1, 1); });
+  map.layer("cost", [&](auto column, auto) { return column == 1 ? std::nan("") : random.number(0, 9); });
+  builder.at(log_ns, map.build());
+}
+
+void addEmptyMap(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame) {
+  builder.at(log_ns, GridMapBuilder(0, 0).frame(frame).layer("elevation", [](auto, auto) { return 0.0; }).build());
+}
+
 }  // namespace
 
 std::vector<LayerCase> layerCases() {
@@ -112,7 +127,8 @@ std::vector<LayerCase> layerCases() {
           {.type = "point_cloud", .add = addCloud, .addEmpty = addEmptyCloud},
           {.type = "laser_scan", .add = addScan, .addEmpty = addEmptyScan},
           {.type = "occupancy_grid", .add = addGrid, .addEmpty = addEmptyGrid},
-          {.type = "compressed_cloud", .add = addCompressedCloud, .addEmpty = addEmptyCompressedCloud}};
+          {.type = "compressed_cloud", .add = addCompressedCloud, .addEmpty = addEmptyCompressedCloud},
+          {.type = "grid_map", .add = addMap, .addEmpty = addEmptyMap}};
 }
 
 std::span<const scenegraph::LayerType> typesUnderTest() { return nodes::layerTypes(); }

@@ -13,9 +13,9 @@ static_assert(std::endian::native == std::endian::little, "the stream is little-
 /// Longest varint: nine groups of seven bits and one bit more.
 constexpr std::size_t kMaxVarintBytes = 10;
 
-/// Reads the bytes of a chunk. The first read that is not possible fails it: from then on everything is zero.
+/// Reads the bytes of a chunk. The first read that is not possible fails it; what it gives from then on means nothing.
 ///
-/// Without `kIsChecked` the caller has seen to it that the bytes are there.
+/// Without `kIsChecked` the caller has seen to it that the bytes of a whole point are there, the longest possible.
 template <bool kIsChecked>
 class BasicReader {
  public:
@@ -26,7 +26,9 @@ class BasicReader {
   [[nodiscard]] const std::byte* at() const noexcept { return at_; }
   void fail() noexcept {
     has_failed_ = true;
-    at_ = end_;
+    if (kIsChecked) {  // else the rest of the point is still to be read, and is there
+      at_ = end_;
+    }
   }
 
   /// The next `size` bytes, at most 8, as an unsigned number.

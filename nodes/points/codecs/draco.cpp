@@ -208,7 +208,7 @@ std::expected<scenegraph::PointCloud, CodecError> pack(const draco::PointCloud& 
     point_step += std::uint64_t{attribute.num_components()} * scenegraph::byteSize(fieldType(attribute.data_type()));
   }
   const std::uint64_t bytes = point_step * source.num_points();
-  if (bytes > maxDecodedBytes(blob_bytes) || point_step * source.num_attributes() > UINT32_MAX) {
+  if (bytes > maxDecodedBytes(blob_bytes) || point_step > UINT32_MAX) {
     return fail(CodecErrorCode::ImplausibleSize, "the Draco cloud of " + std::to_string(blob_bytes) + " bytes has " +
                                                      std::to_string(source.num_points()) + " points of " +
                                                      std::to_string(point_step) + " bytes");

@@ -27,7 +27,7 @@ struct ExportCase {
   bool is_blended = false;      ///< edges are blended, by us in linear light, by a stock viewer in sRGB bytes
 };
 
-void PrintTo(const ExportCase& export_case, std::ostream* out) { *out << export_case.name; }
+std::ostream& operator<<(std::ostream& out, const ExportCase& export_case) { return out << export_case.name; }
 
 /// Pixels that are drawn in one picture and background in the other.
 std::size_t drawnInOne(const scenegraph::BytePicture& a, const scenegraph::BytePicture& b,

@@ -80,9 +80,9 @@ struct LiveObjects {
   friend bool operator==(const LiveObjects&, const LiveObjects&) = default;
 };
 
-void PrintTo(const LiveObjects& live, std::ostream* out) {
-  *out << live.textures << " textures, " << live.framebuffers << " framebuffers, " << live.renderbuffers
-       << " renderbuffers, " << live.buffers << " buffers, " << live.programs << " programs";
+std::ostream& operator<<(std::ostream& out, const LiveObjects& live) {
+  return out << live.textures << " textures, " << live.framebuffers << " framebuffers, " << live.renderbuffers
+             << " renderbuffers, " << live.buffers << " buffers, " << live.programs << " programs";
 }
 
 /// A pass that writes an expression of `scene`, the colour it reads.

@@ -6,7 +6,8 @@ const int kCostmap = 1;
 const int kRaw = 2;
 const float kMostSamples = 4.0;
 const float kRelativeStep = 1e-3;
-const float kAbsoluteStep = 1e-6;
+const float kAbsoluteStep = 2.5e-7;
+const float kSlopePixels = 2.0;
 
 uniform sampler2D u_cells;
 uniform int u_color_scheme;
@@ -60,14 +61,16 @@ vec4 pixelColor() {
   return sum.a > 0.0 ? vec4(sum.rgb / sum.a, sum.a / (columns * rows)) : vec4(0.0);
 }
 
-// gl_FragCoord.z moved away from the eye. With q = 1 near and 0 far away either way round, q / (1 + step) keeps its
-// order and never leaves the range. In perspective q is about the reciprocal of the distance, so that the relative step
-// is one of distance.
+// gl_FragCoord.z moved away from the eye. A line in the plane has the depth of its own middle in all the pixels that it
+// covers: that is a pixel or two of the plane's slope away. The steps keep grids apart beyond what rounding can do. With
+// q = 1 near and 0 far away either way round, q / (1 + step) keeps its order and never leaves the range; in perspective
+// q goes with the reciprocal of the distance, so that the relative step is one of distance.
 float steppedDepth() {
   bool is_reversed = v_depth_kind.x == 1;
   float q = is_reversed ? gl_FragCoord.z : 1.0 - gl_FragCoord.z;
+  float slope = max(abs(dFdx(gl_FragCoord.z)), abs(dFdy(gl_FragCoord.z)));
   float relative = v_depth_kind.y == 1 ? kRelativeStep : 0.0;
-  q /= 1.0 + u_depth_step * (relative + kAbsoluteStep / max(q, 1e-12));
+  q /= 1.0 + u_depth_step * relative + (kSlopePixels * slope + u_depth_step * kAbsoluteStep) / max(q, 1e-12);
   return is_reversed ? q : 1.0 - q;
 }
 

@@ -7,6 +7,7 @@ const int kRaw = 2;
 const float kMostSamples = 4.0;
 const float kRelativeStep = 1e-3;
 const float kAbsoluteStep = 2.5e-7;
+const float kOrthographicStep = 2e-6;
 const float kSlopePixels = 2.0;
 
 uniform sampler2D u_cells;
@@ -69,8 +70,8 @@ float steppedDepth() {
   bool is_reversed = v_depth_kind.x == 1;
   float q = is_reversed ? gl_FragCoord.z : 1.0 - gl_FragCoord.z;
   float slope = max(abs(dFdx(gl_FragCoord.z)), abs(dFdy(gl_FragCoord.z)));
-  float relative = v_depth_kind.y == 1 ? kRelativeStep : 0.0;
-  q /= 1.0 + u_depth_step * relative + (kSlopePixels * slope + u_depth_step * kAbsoluteStep) / max(q, 1e-12);
+  vec2 step_size = v_depth_kind.y == 1 ? vec2(kRelativeStep, kAbsoluteStep) : vec2(0.0, kOrthographicStep);
+  q /= 1.0 + u_depth_step * step_size.x + (kSlopePixels * slope + u_depth_step * step_size.y) / max(q, 1e-12);
   return is_reversed ? q : 1.0 - q;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "nodes/compressed_cloud/compressed_cloud_layer.h"
+#include "nodes/depth_image/depth_image_layer.h"
 #include "nodes/grid/grid_layer.h"
 #include "nodes/grid_map/grid_map_layer.h"
 #include "nodes/laser_scan/laser_scan_layer.h"
@@ -23,6 +24,7 @@ std::span<const scenegraph::LayerType> layerTypes() {
        &OccupancyGridLayer::takesOrphan},
       {"compressed_cloud", "Compressed cloud", CompressedPointCloud, &createCompressedCloudLayer},
       {"grid_map", "Grid map", GridMap, &GridMapLayer::create},
+      {"depth_image", "Depth image", Image, &DepthImageLayer::create},
   };
   return kTypes;
 }

@@ -25,7 +25,7 @@ struct Image {
   std::uint32_t height = 0;
   std::string encoding;
   std::string compressed_encoding;  ///< of the pixels before compression ("16UC1", "rgb8"); "" where it is not told
-  std::uint32_t row_step = 0;  ///< bytes, padding included
+  std::uint32_t row_step = 0;       ///< bytes, padding included
   bool is_bigendian = false;
   Payload data;
   [[nodiscard]] std::size_t byteSize() const { return sizeof(*this) + data.bytes.size(); }

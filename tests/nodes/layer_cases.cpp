@@ -4,6 +4,7 @@
 #include "scenegraph/objects/compressed_point_cloud.h"
 #include "scenegraph/objects/laser_scan.h"
 #include "tests/nodes/grid_map_builder.h"
+#include "tests/nodes/images/image_builder.h"
 #include "tests/nodes/occupancy_grid/grid_builder.h"
 #include "tests/support/cloudini_writer.h"
 #include "tests/support/layer_contract.h"
@@ -119,6 +120,21 @@ void addEmptyMap(DatasetBuilder& builder, std::int64_t log_ns, const std::string
   builder.at(log_ns, GridMapBuilder(0, 0).frame(frame).layer("elevation", [](auto, auto) { return 0.0; }).build());
 }
 
+void addDepthImage(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame, unsigned seed) {
+  builder.topic("/data/camera_info", scenegraph::ObjectType::CameraInfo).at(log_ns, cameraInfo(frame, 4, 3));
+  Random random(seed);
+  std::vector<std::uint16_t> millimetres(12);
+  for (std::uint16_t& depth : millimetres) {
+    depth = static_cast<std::uint16_t>(random.number(0, 5000));
+  }
+  millimetres[seed % 12] = 0;
+  builder.topic("/data", scenegraph::ObjectType::Image).at(log_ns, depthImage16(frame, 4, millimetres));
+}
+
+void addEmptyDepthImage(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame) {
+  builder.at(log_ns, depthImage16(frame, 4, std::vector<std::uint16_t>(12, 0)));
+}
+
 }  // namespace
 
 std::vector<LayerCase> layerCases() {
@@ -128,7 +144,8 @@ std::vector<LayerCase> layerCases() {
           {.type = "laser_scan", .add = addScan, .addEmpty = addEmptyScan},
           {.type = "occupancy_grid", .add = addGrid, .addEmpty = addEmptyGrid},
           {.type = "compressed_cloud", .add = addCompressedCloud, .addEmpty = addEmptyCompressedCloud},
-          {.type = "grid_map", .add = addMap, .addEmpty = addEmptyMap}};
+          {.type = "grid_map", .add = addMap, .addEmpty = addEmptyMap},
+          {.type = "depth_image", .add = addDepthImage, .addEmpty = addEmptyDepthImage}};
 }
 
 std::span<const scenegraph::LayerType> typesUnderTest() { return nodes::layerTypes(); }

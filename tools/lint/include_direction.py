@@ -25,6 +25,7 @@ LIBRARIES = {
     "LZ4": re.compile(r"lz4"),
     "Zstandard": re.compile(r"zstd"),
     "PNG": re.compile(r"png\.h"),
+    "libjpeg-turbo": re.compile(r"turbojpeg\.h"),
     "JSON": re.compile(r"nlohmann/"),
     "CLI11": re.compile(r"CLI/"),
     "Draco": re.compile(r"draco/"),
@@ -37,11 +38,12 @@ LIBRARIES = {
 ALLOWED = {
     "tf": {"GLM"},
     "scenegraph": {"GLM", "OpenSceneGraph", "OpenGL", "OpenEXR", "PNG"},
-    "nodes": {"GLM", "OpenSceneGraph", "OpenGL", "Draco", "assimp", "urdfdom", "Zstandard", "LZ4"},
+    "nodes": {"GLM", "OpenSceneGraph", "OpenGL", "Draco", "assimp", "urdfdom", "Zstandard", "LZ4",
+              "PNG", "libjpeg-turbo"},
     "viewer": {"GLM", "OpenSceneGraph", "OpenGL", "Qt"},
     "tools": set(LIBRARIES) - {"Qt", "GoogleTest"},
 }
-WITHOUT_OSG = ("tf", "scenegraph/objects", "scenegraph/store", "nodes/points", "tools/ingest")
+WITHOUT_OSG = ("tf", "scenegraph/objects", "scenegraph/store", "nodes/images", "nodes/points", "tools/ingest")
 DOOR_TO_VIEWER = ("tools/cli", "viewer/inspector.h")
 
 

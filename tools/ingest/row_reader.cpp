@@ -2,7 +2,9 @@
 
 #include <utility>
 
+#include "tools/ingest/json_plan.h"
 #include "tools/ingest/message_definition.h"
+#include "tools/ingest/proto_plan.h"
 #include "tools/ingest/sentence.h"
 #include "tools/ingest/wire_plan.h"
 
@@ -25,6 +27,37 @@ class RosReader final : public RowReader {
 
  private:
   WirePlan plan_;
+};
+
+class ProtoRowReader final : public RowReader {
+ public:
+  explicit ProtoRowReader(ProtoPlan plan) : plan_(std::move(plan)) {}
+  [[nodiscard]] std::expected<Read, scenegraph::DecodeError> read(const MessageView& message,
+                                                                  void* row) const override {
+    if (auto decoded = plan_.decode(message.data, row); !decoded) {
+      return std::unexpected(std::move(decoded).error());
+    }
+    return Read{message, nullptr};
+  }
+
+ private:
+  ProtoPlan plan_;
+};
+
+class JsonReader final : public RowReader {
+ public:
+  explicit JsonReader(JsonPlan plan) : plan_(std::move(plan)) {}
+  [[nodiscard]] std::expected<Read, scenegraph::DecodeError> read(const MessageView& message,
+                                                                  void* row) const override {
+    auto kept = plan_.decode(message.data, row);
+    if (!kept) {
+      return std::unexpected(std::move(kept).error());
+    }
+    return Read{{message.data, kept->bytes, kept->byte_count, message.log_time}, kept->texts};
+  }
+
+ private:
+  JsonPlan plan_;
 };
 
 Made makeRosReader(const SchemaRecord& schema, bool is_ros1, const Shape& shape) {
@@ -52,6 +85,21 @@ std::expected<std::unique_ptr<RowReader>, std::string> makeRowReader(const Schem
   if (message_encoding == "cdr" || message_encoding == "ros1") {
     const bool is_ros1 = message_encoding == "ros1";
     return schema.encoding == (is_ros1 ? "ros1msg" : "ros2msg") ? makeRosReader(schema, is_ros1, shape) : wrongSchema();
+  }
+  if (message_encoding == "protobuf") {
+    if (schema.encoding != "protobuf") {
+      return wrongSchema();
+    }
+    auto plan = ProtoPlan::compile(schema.data, schema.name, shape);
+    if (!plan) {
+      return std::unexpected(sentence("definition does not fit: ", plan.error()));
+    }
+    return std::make_unique<ProtoRowReader>(*std::move(plan));
+  }
+  if (message_encoding == "json") {
+    return schema.encoding == "jsonschema" || schema.encoding.empty()
+               ? Made(std::make_unique<JsonReader>(JsonPlan::compile(shape)))
+               : wrongSchema();
   }
   return std::unexpected(sentence("encoding '", message_encoding, "' is not supported"));
 }

@@ -14,6 +14,7 @@
 #include "scenegraph/objects/image.h"
 #include "scenegraph/objects/laser_scan.h"
 #include "scenegraph/objects/occupancy_grid.h"
+#include "scenegraph/objects/point_cloud.h"
 #include "scenegraph/objects/poses.h"
 #include "scenegraph/objects/robot_description.h"
 #include "scenegraph/objects/scene_entities.h"
@@ -349,6 +350,39 @@ TEST(ConverterData, BadMarkersAreFaults) {
   EXPECT_THAT(scene->faults, Contains(HasSubstr("odd number")));
   EXPECT_THAT(scene->faults, Contains(HasSubstr("colors for")));
   EXPECT_EQ(scene->faults.size(), 4u) << testing::PrintToString(scene->faults);
+}
+
+TEST(ConverterData, FoxgloveProtobuf) {
+  const Answered answered("foxglove_protobuf_scene");
+  const auto cloud = answered.at("/lidar/points").get<scenegraph::PointCloud>();
+  ASSERT_NE(cloud, nullptr);
+  EXPECT_GT(cloud->width, 1000u);
+  EXPECT_EQ(std::size_t{cloud->width} * cloud->point_step, cloud->data.bytes.size());
+  const auto draco = answered.at("/lidar/draco").get<scenegraph::CompressedPointCloud>();
+  ASSERT_NE(draco, nullptr);
+  EXPECT_EQ(draco->format, "draco");
+  EXPECT_GT(draco->data.bytes.size(), 100u);
+  const auto voxels = answered.at("/voxels/rgba").get<scenegraph::VoxelGrid>();
+  ASSERT_NE(voxels, nullptr);
+  EXPECT_EQ(voxels->fields.size(), 4u);
+  EXPECT_EQ(std::size_t{voxels->slice_stride} * voxels->slice_count, voxels->data.bytes.size());
+  const auto scene = answered.at("/scene").get<scenegraph::SceneEntities>();
+  ASSERT_NE(scene, nullptr);
+  EXPECT_GT(scene->entities.size(), 0u);
+  EXPECT_TRUE(scene->faults.empty()) << testing::PrintToString(scene->faults);
+  EXPECT_GT(answered.recording->dataset()->transforms()->frameCount(), 3u);
+}
+
+TEST(ConverterData, FoxgloveJson) {
+  const Answered answered("mcap_real/lichtblick/custom-camera-model.mcap");
+  const auto image = answered.at("/image/compressed").get<scenegraph::Image>();
+  ASSERT_NE(image, nullptr);
+  EXPECT_THAT(image->encoding, testing::AnyOf("jpeg", "png"));
+  EXPECT_GT(image->data.bytes.size(), 100u);
+  const auto info = answered.at("/camera_calibration").get<scenegraph::CameraInfo>();
+  ASSERT_NE(info, nullptr);
+  EXPECT_GT(info->width, 0u);
+  EXPECT_GT(info->k[0], 0.0);
 }
 
 TEST(ConverterData, Robots) {

@@ -47,5 +47,17 @@ Created foxgloveCameraCalibration(const SchemaRecord& schema, std::string_view m
 Created foxglovePoses(const SchemaRecord& schema, std::string_view message_encoding);
 Created foxglovePose(const SchemaRecord& schema, std::string_view message_encoding);
 Created foxgloveScene(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostTransforms(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostPointCloud(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostCompressedCloud(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostOccupancyGrid(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostOccupancyGridUpdate(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostVoxelGrid(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostGridMap(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostImage(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostCameraInfo(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostPoses(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostRobotDescription(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostScene(const SchemaRecord& schema, std::string_view message_encoding);
 
 }  // namespace stillframe::ingest::converters

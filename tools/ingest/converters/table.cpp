@@ -59,6 +59,18 @@ std::span<const ConverterType> converterTypes() {
       {"foxglove.PosesInFrame", ObjectType::PosesInFrame, converters::foxglovePoses},
       {"foxglove.PoseInFrame", ObjectType::PosesInFrame, converters::foxglovePose},
       {"foxglove.SceneUpdate", ObjectType::SceneEntities, converters::foxgloveScene},
+      {"PJ.FrameTransforms", ObjectType::FrameTransforms, converters::hostTransforms},
+      {"PJ.PointCloud", ObjectType::PointCloud, converters::hostPointCloud},
+      {"PJ.CompressedPointCloud", ObjectType::CompressedPointCloud, converters::hostCompressedCloud},
+      {"PJ.OccupancyGrid", ObjectType::OccupancyGrid, converters::hostOccupancyGrid},
+      {"PJ.OccupancyGridUpdate", ObjectType::OccupancyGridUpdate, converters::hostOccupancyGridUpdate},
+      {"PJ.VoxelGrid", ObjectType::VoxelGrid, converters::hostVoxelGrid},
+      {"PJ.GridMap", ObjectType::GridMap, converters::hostGridMap},
+      {"PJ.Image", ObjectType::Image, converters::hostImage},
+      {"PJ.CameraInfo", ObjectType::CameraInfo, converters::hostCameraInfo},
+      {"PJ.PosesInFrame", ObjectType::PosesInFrame, converters::hostPoses},
+      {"PJ.RobotDescription", ObjectType::RobotDescription, converters::hostRobotDescription},
+      {"PJ.SceneEntities", ObjectType::SceneEntities, converters::hostScene},
   });
   return kTypes;
 }

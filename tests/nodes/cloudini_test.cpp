@@ -8,10 +8,15 @@
 #include <optional>
 
 #include "tests/support/builders.h"
-#include "tests/support/cloudini_writer.h"
+#include "tools/sample/cloudini_writer.h"
 
 namespace stillframe::test {
 namespace {
+
+using sample::SectionMode;
+using sample::toPayload;
+using sample::writeCloudini;
+using sample::writeCloudiniHeader;
 
 using namespace nodes::cloudini;
 using nodes::CodecErrorCode;

@@ -12,10 +12,12 @@
 
 #include "nodes/points/codecs/cloudini.h"
 #include "nodes/points/codecs/draco.h"
-#include "tests/support/cloudini_writer.h"
+#include "tools/sample/cloudini_writer.h"
 
 namespace stillframe::test {
 namespace {
+
+using sample::toPayload;
 
 using scenegraph::FieldType;
 

@@ -6,10 +6,13 @@
 #include "nodes/points/colormap.h"
 #include "scenegraph/objects/compressed_point_cloud.h"
 #include "tests/nodes/scene_picture.h"
-#include "tests/support/cloudini_writer.h"
+#include "tools/sample/cloudini_writer.h"
 
 namespace stillframe::test {
 namespace {
+
+using sample::toPayload;
+using sample::writeCloudini;
 
 using scenegraph::CompressedPointCloud;
 using scenegraph::ObjectType;

@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "tests/support/builders.h"
-#include "tests/support/cloudini_writer.h"
+#include "tools/sample/cloudini_writer.h"
 
 namespace stillframe::test {
 namespace {
+
+using sample::toPayload;
 
 using draco::GeometryAttribute;
 using nodes::CodecErrorCode;

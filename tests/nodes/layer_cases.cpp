@@ -6,8 +6,8 @@
 #include "tests/nodes/grid_map_builder.h"
 #include "tests/nodes/images/image_builder.h"
 #include "tests/nodes/occupancy_grid/grid_builder.h"
-#include "tests/support/cloudini_writer.h"
 #include "tests/support/layer_contract.h"
+#include "tools/sample/cloudini_writer.h"
 
 namespace stillframe::test {
 namespace {
@@ -91,7 +91,7 @@ void addCompressed(DatasetBuilder& builder, std::int64_t log_ns, const std::stri
   scenegraph::CompressedPointCloud cloud;
   cloud.frame_id = frame;
   cloud.format = "cloudini";
-  cloud.data = toPayload(writeCloudini(header, std::as_bytes(std::span(values))));
+  cloud.data = sample::toPayload(sample::writeCloudini(header, std::as_bytes(std::span(values))));
   builder.at(log_ns, std::move(cloud));
 }
 

@@ -182,6 +182,7 @@ Result<void> runBench(const BenchOptions& options) {
     return done;
   }
   benchClouds(results);
+  benchCodecs(results);
   benchTransforms(results);
   const unsigned cores = std::thread::hardware_concurrency();
   if (options.is_json) {

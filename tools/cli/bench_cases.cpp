@@ -2,7 +2,10 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "nodes/points/codecs/cloudini.h"
+#include "nodes/points/codecs/draco.h"
 #include "nodes/points/convert_cloud.h"
+#include "tools/bench/codec_workloads.h"
 #include "tools/bench/tf_bench_lines.h"
 #include "tools/cli/bench_results.h"
 
@@ -53,6 +56,26 @@ void benchClouds(std::vector<BenchResult>& results) {
   results.push_back({"memcpy", megabytes / copied_s, "MB/s"});
   results.push_back({"cloud conversion", megabytes / converted_s, "MB/s"});
   results.push_back({"cloud conversion / memcpy", copied_s / converted_s, "", {}, 0.5});
+}
+
+void benchCodecs(std::vector<BenchResult>& results) {
+  const bench::CodecWorkload workload = bench::makeCodecWorkload(500'000);
+  std::vector<std::byte> copy(workload.points.size());
+  const double megabytes = static_cast<double>(copy.size()) * 1e-6;
+  const double copied_s =
+      bestSecondsOf(7, [&] { std::memcpy(copy.data(), workload.points.data(), workload.points.size()); });
+  bool is_decoded = true;
+  const auto keep = [&](bool is_good) { is_decoded = is_decoded && is_good; };
+  const double cloudini_s = bestSecondsOf(5, [&] { keep(nodes::decodeCloudini(workload.cloudini).has_value()); });
+  const double draco_s = bestSecondsOf(5, [&] { keep(nodes::decodeDraco(workload.draco).has_value()); });
+  const double bare_s = bestSecondsOf(5, [&] { keep(bench::decodeBareDraco(workload.draco)); });
+  if (!is_decoded || copy.back() != workload.points.back()) {
+    throw std::logic_error("the benchmark's clouds were not decoded");
+  }
+  results.push_back({"Cloudini decoding", megabytes / cloudini_s, "MB/s"});
+  results.push_back({"Cloudini decoding / memcpy", copied_s / cloudini_s, ""});
+  results.push_back({"Draco decoding", megabytes / draco_s, "MB/s"});
+  results.push_back({"Draco decoding / bare library", bare_s / draco_s, "", {}, 0.8});
 }
 
 void benchTransforms(std::vector<BenchResult>& results) {

@@ -44,6 +44,8 @@ double bestSecondsOf(int calls, const Function& function) {
 
 /// Memory copy, and cloud conversion beside it.
 void benchClouds(std::vector<BenchResult>& results);
+/// Cloudini and Draco decoding beside memory copy and the bare library.
+void benchCodecs(std::vector<BenchResult>& results);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
 

@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-#include "tests/support/cloudini_writer.h"
+#include "tools/sample/cloudini_writer.h"
 
 using namespace stillframe;
 
@@ -46,8 +46,8 @@ bool writeCloudinis(const std::filesystem::path& folder) {
     header.version = 3 + i % 3;
     header.encoding = static_cast<nodes::cloudini::Encoding>(i / 3 % 3);
     header.compression = static_cast<nodes::cloudini::Compression>(i / 9 % 3);
-    const auto blob = test::writeCloudini(
-        header, points, {.has_binary_header = i % 2 == 0, .section_mode = static_cast<test::SectionMode>(i / 27)});
+    const auto blob = sample::writeCloudini(
+        header, points, {.has_binary_header = i % 2 == 0, .section_mode = static_cast<sample::SectionMode>(i / 27)});
     is_written = write(folder / std::to_string(i), blob) && is_written;
   }
   return is_written;

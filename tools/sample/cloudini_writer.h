@@ -8,7 +8,7 @@
 #include "nodes/points/codecs/cloudini_header.h"
 #include "scenegraph/objects/payload.h"
 
-namespace stillframe::test {
+namespace stillframe::sample {
 
 /// How an integer field of a version 5 chunk is written.
 enum class SectionMode : unsigned char { Differences = 0, Palette = 1, Runs = 2, DifferenceRuns = 3 };
@@ -28,4 +28,4 @@ struct CloudiniOptions {
 /// The bytes as a payload of their own.
 [[nodiscard]] scenegraph::Payload toPayload(std::vector<std::byte> bytes);
 
-}  // namespace stillframe::test
+}  // namespace stillframe::sample

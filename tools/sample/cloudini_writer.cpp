@@ -1,4 +1,4 @@
-#include "tests/support/cloudini_writer.h"
+#include "tools/sample/cloudini_writer.h"
 
 #include <lz4.h>
 #include <zstd.h>
@@ -12,7 +12,7 @@
 #include <memory>
 #include <stdexcept>
 
-namespace stillframe::test {
+namespace stillframe::sample {
 namespace {
 
 using namespace nodes::cloudini;
@@ -302,4 +302,4 @@ scenegraph::Payload toPayload(Bytes bytes) {
   return {*anchor, anchor};
 }
 
-}  // namespace stillframe::test
+}  // namespace stillframe::sample

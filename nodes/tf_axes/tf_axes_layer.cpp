@@ -1,6 +1,7 @@
 #include "nodes/tf_axes/tf_axes_layer.h"
 
 #include <algorithm>
+#include <ranges>
 #include <regex>
 #include <set>
 
@@ -53,6 +54,13 @@ const SettingsTable<TfAxesLayer::Settings>& table() {
         .help = "Names of frames that are not drawn, separated by commas.",
         .kind = SettingKind::Text},
        &S::hidden_frames},
+      {{.key = "max_frames",
+        .label = "Most frames",
+        .help = "How many frames are drawn at most, the first to appear; filter them to see others.",
+        .kind = SettingKind::Int,
+        .minimum = 1,
+        .maximum = 1e6},
+       &S::max_frames},
       {{.key = "line_color", .label = "Line colour", .help = "Colour of the parent lines.", .kind = SettingKind::Color},
        &S::line_color},
       {{.key = "label_color", .label = "Name colour", .help = "Colour of the names.", .kind = SettingKind::Color},
@@ -117,7 +125,7 @@ void TfAxesLayer::setVisible(bool visible) {
 }
 
 void TfAxesLayer::clear() {
-  for (Shown& shown : shown_) {
+  for (const Shown& shown : shown_ | std::views::reverse) {
     if (osg::MatrixTransform* const node = context_->frames.node(shown.name)) {
       node->removeChild(shown.group);
     }
@@ -126,6 +134,7 @@ void TfAxesLayer::clear() {
   shown_.clear();
   applied_.reset();
   resolved_ = 0;
+  left_out_ = 0;
   bounds_.init();
   status_ = {};
 }
@@ -174,6 +183,7 @@ void TfAxesLayer::rebuild() {
   const std::regex filter(settings_.frame_filter, std::regex::ECMAScript | std::regex::nosubs);
   const auto hidden = splitNames(settings_.hidden_frames);
   std::size_t next = 0;
+  left_out_ = 0;
   std::vector<Shown> all;
   for (tf::FrameId id = 0; id < names.size(); ++id) {
     if (next < shown_.size() && shown_[next].id == id) {
@@ -181,6 +191,10 @@ void TfAxesLayer::rebuild() {
       continue;
     }
     if (hidden.contains(names[id]) || !occursIn(names[id], filter)) {
+      continue;
+    }
+    if (all.size() >= static_cast<std::size_t>(settings_.max_frames)) {
+      ++left_out_;
       continue;
     }
     Shown& shown = all.emplace_back(Shown{id, names[id], buffer.parent(id), {}, {}});
@@ -244,12 +258,23 @@ void TfAxesLayer::judge() {
     status_ = {StatusLevel::Info, "UnresolvedFrames",
                std::to_string(unresolved) + " of " + std::to_string(shown_.size()) +
                    (unresolved == 1 ? " frames is" : " frames are") + " not drawn: " + reason.message +
-                   (unresolved == 1 ? "" : "; and others")};
+                   (unresolved == 1 ? "" : "; and others") + (left_out_ > 0 ? "; " + leftOutText() : "")};
+  } else if (left_out_ > 0) {
+    status_ = {StatusLevel::Info, "TooManyFrames", leftOutText()};
   }
 }
 
+std::string TfAxesLayer::leftOutText() const {
+  return "the first " + std::to_string(shown_.size()) + " of " + std::to_string(shown_.size() + left_out_) +
+         " frames are drawn: set frame_filter to see others, or raise max_frames";
+}
+
 scenegraph::LayerCounts TfAxesLayer::counts() const {
-  return {{"frames", shown_.size()}, {"unresolved", shown_.size() - resolved_}};
+  scenegraph::LayerCounts counts{{"frames", shown_.size()}, {"unresolved", shown_.size() - resolved_}};
+  if (left_out_ > 0) {
+    counts.emplace_back("left_out", left_out_);
+  }
+  return counts;
 }
 
 std::vector<scenegraph::SettingSpec> TfAxesLayer::settingSpecs() const { return table().specs(); }

@@ -33,6 +33,7 @@ class TfAxesLayer final : public scenegraph::Layer {
     double label_height_px = 16.0;
     std::string frame_filter;
     std::string hidden_frames;
+    std::int64_t max_frames = 10'000;  ///< a node each, and two draw calls: more would stall the window
     scenegraph::Color line_color{.r = 1.0F, .g = 0.0F, .b = 1.0F, .a = 1.0F};
     scenegraph::Color label_color{.r = 242 / 255.0F, .g = 242 / 255.0F, .b = 242 / 255.0F, .a = 1.0F};
 
@@ -49,7 +50,8 @@ class TfAxesLayer final : public scenegraph::Layer {
   void setVisible(bool visible) override;
   [[nodiscard]] bool isVisible() const override { return visible_; }
   [[nodiscard]] const scenegraph::Status& status() const override { return status_; }
-  /// "frames" shown, "unresolved" ones that cannot be expressed at the tick.
+  /// "frames" shown, "unresolved" ones among them that cannot be expressed at the tick, "left_out" when there are
+  /// frames beyond max_frames.
   [[nodiscard]] scenegraph::LayerCounts counts() const override;
   [[nodiscard]] std::string sourceFrame() const override { return ""; }
   [[nodiscard]] bool isPending() const override { return false; }
@@ -79,6 +81,7 @@ class TfAxesLayer final : public scenegraph::Layer {
   };
 
   void rebuild();
+  [[nodiscard]] std::string leftOutText() const;
   void hang(Shown& shown);
   void clear();
   void poseLine(Shown& shown, tf::TimePoint time);
@@ -91,6 +94,7 @@ class TfAxesLayer final : public scenegraph::Layer {
   std::optional<scenegraph::LayerContext> context_;
   std::vector<Shown> shown_;
   std::uint64_t resolved_ = 0;
+  std::uint64_t left_out_ = 0;  // frames beyond max_frames
   osg::BoundingBoxd bounds_;
   osg::ref_ptr<osg::Geometry> triad_;
   osg::ref_ptr<osg::Geometry> unit_line_;

@@ -63,6 +63,19 @@ TEST_F(AxesPicture, HidesLinesAndFramesOnDemand) {
   EXPECT_EQ(layer.settings().at("frame_filter"), "^a");
 }
 
+TEST_F(AxesPicture, DrawsNoMoreFramesThanAskedForAndSaysSo) {
+  open(tree(), "map");
+  auto& layer = add("tf", {{"max_frames", "2"}});
+  (void)draw(6_s, fromAbove());
+  EXPECT_EQ(layer.counts(), (scenegraph::LayerCounts{{"frames", 2}, {"unresolved", 0}, {"left_out", 2}}));
+  EXPECT_EQ(layer.status().code, "TooManyFrames");
+  EXPECT_THAT(layer.status().message, HasSubstr("first 2 of 4"));
+  ASSERT_TRUE(layer.applySettings({{"max_frames", "4"}}));
+  (void)draw(6_s, fromAbove());
+  EXPECT_EQ(layer.counts(), (scenegraph::LayerCounts{{"frames", 4}, {"unresolved", 0}}));
+  EXPECT_EQ(layer.status().code, "Ok");
+}
+
 TEST_F(AxesPicture, WritesNamesOnlyWhenAsked) {
   open(tree(), "map");
   auto& layer = add("tf", {{"axes", "false"}, {"parent_lines", "false"}, {"labels", "true"}});

@@ -1,14 +1,22 @@
 #include "scenegraph/frame_graph.h"
 
-#include <cstring>
+#include <algorithm>
+#include <bit>
 #include <glm/gtc/type_ptr.hpp>
 #include <osg/Matrixd>
+#include <span>
 #include <utility>
 
 namespace stillframe::scenegraph {
 namespace {
 
 constexpr osg::Node::NodeMask kShown = ~0U;
+
+/// The state must not depend on which of 0 and -0 was there before.
+bool isSameByBits(const osg::Matrixd& a, const osg::Matrixd& b) {
+  return std::ranges::equal(std::span(a.ptr(), 16), std::span(b.ptr(), 16), {}, std::bit_cast<std::uint64_t, double>,
+                            std::bit_cast<std::uint64_t, double>);
+}
 
 }  // namespace
 
@@ -47,8 +55,7 @@ void FrameGraph::pose(const std::string& frame, osg::MatrixTransform& node) {
   const osg::Node::NodeMask mask = fixed_from_frame ? kShown : 0U;
   if (fixed_from_frame) {
     const osg::Matrixd matrix(glm::value_ptr(tf::toMatrix(*fixed_from_frame)));
-    // By bits: the state must not depend on which of 0 and -0 was there before.
-    if (std::memcmp(matrix.ptr(), node.getMatrix().ptr(), sizeof(matrix)) != 0) {
+    if (!isSameByBits(matrix, node.getMatrix())) {
       node.setMatrix(matrix);
       ++counts_.matrices_written;
     }

@@ -198,7 +198,8 @@ std::string renderSvg(const PlotFigure& figure) {
     x.start = kLeft + static_cast<double>(i % columns) * (kPanelWidth + kGapX);
     x.length = kPanelWidth;
     Axis y = axisAround(panel_y);
-    y.start = kTop + static_cast<double>(i / columns) * (kPanelHeight + kGapY) + kPanelHeight;
+    const auto row = i / columns;
+    y.start = kTop + static_cast<double>(row) * (kPanelHeight + kGapY) + kPanelHeight;
     y.length = -kPanelHeight;
     addAxes(svg, x, y);
     addText(svg, x.start, y.start + y.length - 8, escaped(panel.title), "font-size=\"13\" font-weight=\"bold\"");

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -19,66 +18,14 @@
 #include "scenegraph/objects/robot_description.h"
 #include "scenegraph/objects/scene_entities.h"
 #include "scenegraph/objects/voxel_grid.h"
-#include "tools/ingest/recording.h"
+#include "tests/tools/ingest/answered.h"
 
 namespace stillframe::ingest {
 namespace {
 
 using nlohmann::json;
 using scenegraph::ObjectType;
-
-const std::filesystem::path kData = STILLFRAME_TEST_DATA;
-
-/// A recording of mcap_made (or a path below the data) and its reference answers.
-class Answered {
- public:
-  explicit Answered(const std::string& name) {
-    const auto made = kData / "mcap_made" / (name + ".mcap");
-    const auto path = std::filesystem::exists(made) ? made : kData / name;
-    auto opened = Recording::open(std::span(&path, 1), scenegraph::TfClock::Header);
-    EXPECT_TRUE(opened) << opened.error().message;
-    recording = *std::move(opened);
-    recording->load();
-    if (std::ifstream in(kData / "truth" / (name + ".json")); in) {
-      truth = json::parse(in);
-    }
-  }
-  /// The newest object of a topic at that time.
-  scenegraph::AnyObject at(const std::string& topic, std::int64_t time_ns = INT64_MAX) const {
-    const auto& store = recording->dataset()->store();
-    const auto id = store.findTopic(topic);
-    EXPECT_TRUE(id) << topic;
-    const auto entry = store.newestAtOrBefore(*id, {time_ns});
-    EXPECT_TRUE(entry) << topic;
-    auto object = store.decode(*id, *entry);
-    EXPECT_TRUE(object) << topic << ": " << object.error().message;
-    return object ? *object : scenegraph::AnyObject{};
-  }
-  /// Calls check(object, sample) for every reference sample of the topics of that schema.
-  template <typename Object, typename Check>
-  std::size_t eachSample(std::string_view schema, const Check& check) const {
-    std::size_t samples = 0;
-    for (const auto& [topic, facts] : truth["topics"].items()) {
-      if (facts["type"] != schema) {
-        continue;
-      }
-      for (const json& sample : facts["samples"]) {
-        SCOPED_TRACE(topic);
-        const scenegraph::AnyObject any = at(topic, std::stoll(sample["log_ns"].template get<std::string>()));
-        const std::shared_ptr<const Object> object = any.get<Object>();
-        EXPECT_NE(object, nullptr);
-        if (object != nullptr) {
-          check(*object, sample);
-          ++samples;
-        }
-      }
-    }
-    return samples;
-  }
-
-  std::unique_ptr<Recording> recording;
-  json truth;
-};
+using test::Answered;
 
 glm::dvec3 vectorOf(const json& xyz) { return {xyz["x"], xyz["y"], xyz["z"]}; }
 
@@ -89,7 +36,7 @@ void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double tol
 
 TEST(ConverterData, EverythingDrawableDecodes) {
   std::map<ObjectType, std::size_t> decoded;
-  for (const auto& file : std::filesystem::directory_iterator(kData / "mcap_made")) {
+  for (const auto& file : std::filesystem::directory_iterator(test::dataFolder() / "mcap_made")) {
     if (file.path().extension() != ".mcap") {
       continue;
     }

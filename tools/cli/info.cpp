@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <ranges>
 #include <memory>
 
 #include "tools/cli/commands.h"
@@ -106,8 +107,8 @@ void printFrames(const tf::TransformBuffer& buffer) {
   std::printf("\n%zu frames\n", count);
   std::vector<std::pair<tf::FrameId, std::size_t>> open;
   const auto roots = buffer.roots();
-  for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-    open.emplace_back(*root, 1);
+  for (const tf::FrameId root : roots | std::views::reverse) {
+    open.emplace_back(root, 1);
   }
   while (!open.empty()) {
     const auto [frame, depth] = open.back();
@@ -119,8 +120,8 @@ void printFrames(const tf::TransformBuffer& buffer) {
     }
     std::printf("%s\n", line.c_str());
     if (const auto found = children.find(frame); found != children.end()) {
-      for (auto child = found->second.rbegin(); child != found->second.rend(); ++child) {
-        open.emplace_back(*child, depth + 1);
+      for (const tf::FrameId child : found->second | std::views::reverse) {
+        open.emplace_back(child, depth + 1);
       }
     }
   }

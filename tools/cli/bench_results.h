@@ -46,6 +46,8 @@ double bestSecondsOf(int calls, const Function& function) {
 void benchClouds(std::vector<BenchResult>& results);
 /// Cloudini and Draco decoding beside memory copy and the bare library.
 void benchCodecs(std::vector<BenchResult>& results);
+/// States of an occupancy grid under a stream of patches.
+void benchGrids(std::vector<BenchResult>& results);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
 

@@ -48,43 +48,43 @@ CellCounts countCells(std::span<const std::int8_t> cells) noexcept {
 GridCells::GridCells(const GridHeader& header, std::span<const std::byte> cells)
     : width_(header.width),
       height_(header.height),
-      edge_(header.tile_edge),
-      tile_columns_((header.width + header.tile_edge - 1) / header.tile_edge) {
+      edge_(header.block_edge),
+      block_columns_((header.width + header.block_edge - 1) / header.block_edge) {
   const std::int8_t* const from = cellsOf(cells);
   for (std::uint32_t y = 0; y < height_ && width_ > 0; y += edge_) {
     for (std::uint32_t x = 0; x < width_; x += edge_) {
-      auto tile = std::make_shared<GridTile>();
-      tile->width = std::min(edge_, width_ - x);
-      tile->height = std::min(edge_, height_ - y);
+      auto block = std::make_shared<GridBlock>();
+      block->width = std::min(edge_, width_ - x);
+      block->height = std::min(edge_, height_ - y);
       const auto row = [&](std::uint32_t i) { return from + (std::size_t{y} + i) * width_ + x; };
       const std::int8_t first = *row(0);
       bool is_uniform = true;
-      for (std::uint32_t i = 0; i < tile->height && is_uniform; ++i) {
-        is_uniform = *row(i) == first && std::memcmp(row(i), row(i) + 1, tile->width - 1) == 0;
+      for (std::uint32_t i = 0; i < block->height && is_uniform; ++i) {
+        is_uniform = *row(i) == first && std::memcmp(row(i), row(i) + 1, block->width - 1) == 0;
       }
       if (is_uniform) {
-        tile->cells.assign(1, first);
-        add(counts_, countCells(tile->cells), std::uint64_t{tile->width} * tile->height);
+        block->cells.assign(1, first);
+        add(counts_, countCells(block->cells), std::uint64_t{block->width} * block->height);
       } else {
-        tile->cells.resize(std::size_t{tile->width} * tile->height);
-        for (std::uint32_t i = 0; i < tile->height; ++i) {
-          std::memcpy(tile->cells.data() + std::size_t{i} * tile->width, row(i), tile->width);
+        block->cells.resize(std::size_t{block->width} * block->height);
+        for (std::uint32_t i = 0; i < block->height; ++i) {
+          std::memcpy(block->cells.data() + std::size_t{i} * block->width, row(i), block->width);
         }
-        add(counts_, countCells(tile->cells));
+        add(counts_, countCells(block->cells));
       }
-      tiles_.push_back(std::move(tile));
+      blocks_.push_back(std::move(block));
     }
   }
-  is_own_.assign(tiles_.size(), 0);
+  is_own_.assign(blocks_.size(), 0);
 }
 
 GridCells::GridCells(const GridCells& other)
     : width_(other.width_),
       height_(other.height_),
       edge_(other.edge_),
-      tile_columns_(other.tile_columns_),
+      block_columns_(other.block_columns_),
       counts_(other.counts_),
-      tiles_(other.tiles_),
+      blocks_(other.blocks_),
       is_own_(other.is_own_.size(), 0) {
   other.disown();
 }
@@ -103,16 +103,16 @@ void GridCells::disown() const {
   }
 }
 
-GridTile& GridCells::own(std::size_t tile) {
-  std::shared_ptr<GridTile>& shared = tiles_[tile];
-  if (is_own_[tile] == 0) {
-    auto copy = std::make_shared<GridTile>(*shared);
+GridBlock& GridCells::own(std::size_t block) {
+  std::shared_ptr<GridBlock>& shared = blocks_[block];
+  if (is_own_[block] == 0) {
+    auto copy = std::make_shared<GridBlock>(*shared);
     if (copy->isUniform()) {
       const std::int8_t value = copy->cells.front();
       copy->cells.assign(std::size_t{copy->width} * copy->height, value);
     }
     shared = std::move(copy);
-    is_own_[tile] = 1;
+    is_own_[block] = 1;
     own_bytes_ += shared->byteSize();
   }
   return *shared;
@@ -135,16 +135,16 @@ PatchOutcome GridCells::apply(const scenegraph::OccupancyGridUpdate& patch) {
   }
   const std::int8_t* const from = cellsOf(patch.data.bytes);
   const std::int64_t edge = edge_;
-  for (std::int64_t tile_y = bottom / edge; tile_y * edge < top; ++tile_y) {
-    for (std::int64_t tile_x = left / edge; tile_x * edge < right; ++tile_x) {
-      GridTile& tile = own(static_cast<std::size_t>(tile_y * tile_columns_ + tile_x));
-      const std::int64_t x0 = std::max(left, tile_x * edge);
-      const std::int64_t x1 = std::min(right, tile_x * edge + tile.width);
-      const std::int64_t y0 = std::max(bottom, tile_y * edge);
-      const std::int64_t y1 = std::min(top, tile_y * edge + tile.height);
+  for (std::int64_t block_y = bottom / edge; block_y * edge < top; ++block_y) {
+    for (std::int64_t block_x = left / edge; block_x * edge < right; ++block_x) {
+      GridBlock& block = own(static_cast<std::size_t>(block_y * block_columns_ + block_x));
+      const std::int64_t x0 = std::max(left, block_x * edge);
+      const std::int64_t x1 = std::min(right, block_x * edge + block.width);
+      const std::int64_t y0 = std::max(bottom, block_y * edge);
+      const std::int64_t y1 = std::min(top, block_y * edge + block.height);
       const auto count = static_cast<std::size_t>(x1 - x0);
       for (std::int64_t y = y0; y < y1; ++y) {
-        std::int8_t* const to = tile.cells.data() + (y - tile_y * edge) * tile.width + (x0 - tile_x * edge);
+        std::int8_t* const to = block.cells.data() + (y - block_y * edge) * block.width + (x0 - block_x * edge);
         subtract(counts_, countCells({to, count}));
         std::memcpy(to, from + (y - patch.y) * std::int64_t{patch.width} + (x0 - patch.x), count);
         add(counts_, countCells({to, count}));
@@ -157,14 +157,14 @@ PatchOutcome GridCells::apply(const scenegraph::OccupancyGridUpdate& patch) {
 }
 
 std::int8_t GridCells::at(std::uint32_t column, std::uint32_t row) const {
-  const GridTile& tile = *tiles_[std::size_t{row / edge_} * tile_columns_ + column / edge_];
-  return tile.isUniform() ? tile.cells.front() : tile.cells[std::size_t{row % edge_} * tile.width + column % edge_];
+  const GridBlock& block = *blocks_[std::size_t{row / edge_} * block_columns_ + column / edge_];
+  return block.isUniform() ? block.cells.front() : block.cells[std::size_t{row % edge_} * block.width + column % edge_];
 }
 
 std::size_t GridCells::byteSize() const noexcept {
-  std::size_t bytes = sizeof(*this) + tiles_.size() * (sizeof(tiles_.front()) + 1);
-  for (const auto& tile : tiles_) {
-    bytes += tile->byteSize();
+  std::size_t bytes = sizeof(*this) + blocks_.size() * (sizeof(blocks_.front()) + 1);
+  for (const auto& block : blocks_) {
+    bytes += block->byteSize();
   }
   return bytes;
 }

@@ -21,7 +21,7 @@ struct CellCounts {
 };
 
 /// A square of cells, row-major, row 0 at y = 0. One that is all of one value keeps that value alone.
-struct GridTile {
+struct GridBlock {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<std::int8_t> cells;
@@ -38,8 +38,8 @@ enum class PatchOutcome : std::uint8_t {
   Short,    ///< fewer bytes than cells: not applied
 };
 
-/// The cells of a grid as tiles that copies share: a copy costs a pointer a tile, a patch after it copies only the
-/// tiles that it touches. Not thread-safe; copies may be read and patched by different threads.
+/// The cells of a grid as blocks that copies share: a copy costs a pointer a block, a patch after it copies only the
+/// blocks that it touches. Not thread-safe; copies may be read and patched by different threads.
 class GridCells {
  public:
   GridCells() = default;
@@ -54,26 +54,26 @@ class GridCells {
   PatchOutcome apply(const scenegraph::OccupancyGridUpdate& patch);
 
   [[nodiscard]] const CellCounts& counts() const noexcept { return counts_; }
-  [[nodiscard]] std::uint32_t tileColumns() const noexcept { return tile_columns_; }
+  [[nodiscard]] std::uint32_t blockColumns() const noexcept { return block_columns_; }
   /// Row-major.
-  [[nodiscard]] const std::vector<std::shared_ptr<GridTile>>& tiles() const noexcept { return tiles_; }
+  [[nodiscard]] const std::vector<std::shared_ptr<GridBlock>>& blocks() const noexcept { return blocks_; }
   /// The value of a cell of the grid.
   [[nodiscard]] std::int8_t at(std::uint32_t column, std::uint32_t row) const;
-  /// Bytes that apply() has copied into tiles of its own since this object was last copied.
+  /// Bytes that apply() has copied into blocks of its own since this object was last copied.
   [[nodiscard]] std::size_t ownBytes() const noexcept { return own_bytes_; }
   [[nodiscard]] std::size_t byteSize() const noexcept;
 
  private:
-  GridTile& own(std::size_t tile);
+  GridBlock& own(std::size_t block);
   void disown() const;
 
   std::uint32_t width_ = 0;
   std::uint32_t height_ = 0;
   std::uint32_t edge_ = 1;
-  std::uint32_t tile_columns_ = 0;
+  std::uint32_t block_columns_ = 0;
   CellCounts counts_;
-  std::vector<std::shared_ptr<GridTile>> tiles_;
-  // Whether a tile belongs to this object alone; copying ends that for both, and so these change in const objects.
+  std::vector<std::shared_ptr<GridBlock>> blocks_;
+  // Whether a block belongs to this object alone; copying ends that for both, and so these change in const objects.
   mutable std::vector<std::uint8_t> is_own_;
   mutable std::size_t own_bytes_ = 0;
 };

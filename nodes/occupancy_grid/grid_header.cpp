@@ -41,6 +41,15 @@ std::uint32_t tileEdge(std::uint32_t width, std::uint32_t height) noexcept {
   return tiles(2048) <= kMostTiles ? 2048 : 0;
 }
 
+std::uint32_t blockEdge(std::uint32_t width, std::uint32_t height) noexcept {
+  constexpr std::uint64_t kMostBlocks = 16384;
+  std::uint32_t edge = 64;
+  while (edge < 256 && (std::uint64_t{width} / edge + 1) * (std::uint64_t{height} / edge + 1) > kMostBlocks + 512) {
+    edge *= 2;
+  }
+  return edge;
+}
+
 std::expected<GridHeader, Status> checkGrid(const OccupancyGrid& grid) {
   const std::uint64_t cells = std::uint64_t{grid.width} * grid.height;
   if (grid.data.bytes.size() < cells) {
@@ -65,6 +74,7 @@ std::expected<GridHeader, Status> checkGrid(const OccupancyGrid& grid) {
   header.width = grid.width;
   header.height = grid.height;
   header.tile_edge = edge;
+  header.block_edge = blockEdge(grid.width, grid.height);
   if (!tf::isFinite(grid.origin)) {
     return fault("BadOrigin", "the origin has a NaN or infinite component");
   }

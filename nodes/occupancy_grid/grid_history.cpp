@@ -103,7 +103,7 @@ void GridHistory::apply(GridState& state, const Update& update) const {
 void GridHistory::keep(std::size_t place, const GridState& state, std::size_t own_bytes) {
   const auto after = std::ranges::upper_bound(checkpoints_, place, {}, &Checkpoint::place);
   checkpoints_.insert(after, Checkpoint{place, state});
-  checkpoint_bytes_ += own_bytes + state.cells.tiles().size() * sizeof(std::shared_ptr<GridTile>);
+  checkpoint_bytes_ += own_bytes + state.cells.blocks().size() * sizeof(std::shared_ptr<GridBlock>);
   while (checkpoint_bytes_ > max_bytes_ && checkpoints_.size() > 1) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < checkpoints_.size(); i += 2) {
@@ -115,13 +115,13 @@ void GridHistory::keep(std::size_t place, const GridState& state, std::size_t ow
     checkpoints_.resize(kept);
     work_step_ *= 2;
     // Exact: what went may live on in what stays.
-    std::unordered_set<const GridTile*> known;
+    std::unordered_set<const GridBlock*> known;
     checkpoint_bytes_ = 0;
     for (const Checkpoint& checkpoint : checkpoints_) {
       const bool is_base = checkpoint.place == 0;
-      checkpoint_bytes_ += is_base ? 0 : checkpoint.state.cells.tiles().size() * sizeof(std::shared_ptr<GridTile>);
-      for (const auto& tile : checkpoint.state.cells.tiles()) {
-        checkpoint_bytes_ += known.insert(tile.get()).second && !is_base ? tile->byteSize() : 0;
+      checkpoint_bytes_ += is_base ? 0 : checkpoint.state.cells.blocks().size() * sizeof(std::shared_ptr<GridBlock>);
+      for (const auto& block : checkpoint.state.cells.blocks()) {
+        checkpoint_bytes_ += known.insert(block.get()).second && !is_base ? block->byteSize() : 0;
       }
     }
   }

@@ -29,9 +29,9 @@ struct GridState {
 /// All states of one base grid: any number of updates in, and back again.
 ///
 /// A state is a pure function of the base and the updates in their order; how it was come by leaves no trace. States
-/// share the tiles that do not differ. Checkpoints lie wherever a certain amount of work has gone by, so that any state
-/// costs a bounded amount of work; when they outgrow `max_bytes`, every other one goes and the amount doubles. Not
-/// thread-safe.
+/// share the blocks that do not differ. Checkpoints lie wherever a certain amount of work has gone by, so that any
+/// state costs a bounded amount of work; when they outgrow `max_bytes`, every other one goes and the amount doubles.
+/// Not thread-safe.
 class GridHistory {
  public:
   using Update = std::shared_ptr<const scenegraph::OccupancyGridUpdate>;

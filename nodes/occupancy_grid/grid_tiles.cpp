@@ -31,10 +31,11 @@ osg::ref_ptr<osg::Texture2D> makeTexture(osg::Image* image) {
 }
 
 /// The tile's corners in metres and, as texture coordinates, in its own cells.
-osg::ref_ptr<osg::Geometry> makeQuad(const GridHeader& header, std::uint32_t x, std::uint32_t y, const GridTile& tile) {
+osg::ref_ptr<osg::Geometry> makeQuad(const GridHeader& header, std::uint32_t x, std::uint32_t y, std::uint32_t width,
+                                     std::uint32_t height) {
   osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
   osg::ref_ptr<osg::Vec2Array> cells = new osg::Vec2Array;
-  for (const auto& [i, j] : {std::pair{0U, 0U}, {tile.width, 0U}, {0U, tile.height}, {tile.width, tile.height}}) {
+  for (const auto& [i, j] : {std::pair{0U, 0U}, {width, 0U}, {0U, height}, {width, height}}) {
     // The same product for the tiles on both sides of an edge: no gap between them.
     vertices->push_back(osg::Vec3d(header.resolution_m * (x + i), header.resolution_m * (y + j), 0.0));
     cells->push_back({static_cast<float>(i), static_cast<float>(j)});
@@ -121,14 +122,12 @@ void GridTiles::show(std::shared_ptr<const GridSnapshot> snapshot) {
     shown_ = nullptr;
     return;
   }
-  const auto& now = snapshot->state.cells.tiles();
   if (!hasLayoutOf(snapshot->header)) {
     build(snapshot->header, snapshot->state.cells);
   } else {
-    const auto& before = shown_->state.cells.tiles();
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      if (now[i] != before[i] && now[i]->cells != before[i]->cells) {
-        write(tiles_[i], *now[i]);
+    for (Tile& tile : tiles_) {
+      if (isChanged(tile, snapshot->state.cells)) {
+        write(tile, snapshot->header, snapshot->state.cells);
       }
     }
   }
@@ -136,33 +135,73 @@ void GridTiles::show(std::shared_ptr<const GridSnapshot> snapshot) {
   shown_ = std::move(snapshot);
 }
 
+bool GridTiles::isChanged(const Tile& tile, const GridCells& now) const {
+  return std::ranges::any_of(tile.blocks, [&](std::size_t block) {
+    const auto& is = now.blocks()[block];
+    const auto& was = shown_->state.cells.blocks()[block];
+    return is != was && is->cells != was->cells;
+  });
+}
+
 void GridTiles::build(const GridHeader& header, const GridCells& cells) {
   node_->removeChildren(0, node_->getNumChildren());
   tiles_.clear();
-  for (std::size_t i = 0; i < cells.tiles().size(); ++i) {
-    const GridTile& from = *cells.tiles()[i];
-    const auto column = static_cast<std::uint32_t>(i % cells.tileColumns());
-    const auto row = static_cast<std::uint32_t>(i / cells.tileColumns());
-    Tile tile;
-    tile.geometry = makeQuad(header, column * header.tile_edge, row * header.tile_edge, from);
-    write(tile, from);
-    node_->addChild(tile.geometry);
-    tiles_.push_back(std::move(tile));
+  for (std::uint32_t y = 0; y < header.height && header.width > 0; y += header.tile_edge) {
+    for (std::uint32_t x = 0; x < header.width; x += header.tile_edge) {
+      Tile tile;
+      tile.x = x;
+      tile.y = y;
+      tile.width = std::min(header.tile_edge, header.width - x);
+      tile.height = std::min(header.tile_edge, header.height - y);
+      for (std::uint32_t row = y; row < y + tile.height; row += header.block_edge) {
+        for (std::uint32_t column = x; column < x + tile.width; column += header.block_edge) {
+          tile.blocks.push_back(std::size_t{row / header.block_edge} * cells.blockColumns() +
+                                column / header.block_edge);
+        }
+      }
+      tile.geometry = makeQuad(header, x, y, tile.width, tile.height);
+      write(tile, header, cells);
+      node_->addChild(tile.geometry);
+      tiles_.push_back(std::move(tile));
+    }
   }
 }
 
-void GridTiles::write(Tile& tile, const GridTile& cells) {
-  const int width = cells.isUniform() ? 1 : static_cast<int>(cells.width);
-  const int height = cells.isUniform() ? 1 : static_cast<int>(cells.height);
+void GridTiles::write(Tile& tile, const GridHeader& header, const GridCells& cells) {
+  const auto blockAt = [&](std::size_t i) -> const GridBlock& { return *cells.blocks()[tile.blocks[i]]; };
+  const std::int8_t first = blockAt(0).cells.front();
+  bool is_uniform = true;
+  for (std::size_t i = 0; i < tile.blocks.size() && is_uniform; ++i) {
+    is_uniform = blockAt(i).isUniform() && blockAt(i).cells.front() == first;
+  }
+  const int width = is_uniform ? 1 : static_cast<int>(tile.width);
+  const int height = is_uniform ? 1 : static_cast<int>(tile.height);
   if (tile.image == nullptr || tile.image->s() != width || tile.image->t() != height) {
     tile.image = new osg::Image;
     tile.image->allocateImage(width, height, 1, GL_RED, GL_UNSIGNED_BYTE, 1);
     tile.image->setInternalTextureFormat(kR8);
     tile.geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, makeTexture(tile.image));
   }
-  std::memcpy(tile.image->data(), cells.cells.data(), cells.cells.size());
+  if (is_uniform) {
+    *tile.image->data() = static_cast<unsigned char>(first);
+  } else {
+    const std::size_t columns = (tile.width + header.block_edge - 1) / header.block_edge;
+    for (std::size_t i = 0; i < tile.blocks.size(); ++i) {
+      const GridBlock& block = blockAt(i);
+      const auto left = static_cast<unsigned>(i % columns * header.block_edge);
+      const auto bottom = static_cast<unsigned>(i / columns * header.block_edge);
+      for (std::uint32_t row = 0; row < block.height; ++row) {
+        unsigned char* const to = tile.image->data(left, bottom + row);
+        if (block.isUniform()) {
+          std::memset(to, static_cast<unsigned char>(block.cells.front()), block.width);
+        } else {
+          std::memcpy(to, block.cells.data() + std::size_t{row} * block.width, block.width);
+        }
+      }
+    }
+  }
   tile.image->dirty();
-  uploaded_bytes_ += cells.cells.size();
+  uploaded_bytes_ += static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
 }  // namespace stillframe::nodes

@@ -45,10 +45,16 @@ class GridTiles {
   struct Tile {
     osg::ref_ptr<osg::Geometry> geometry;
     osg::ref_ptr<osg::Image> image;
+    std::uint32_t x = 0;  ///< cells
+    std::uint32_t y = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::size_t> blocks;  ///< in it, row-major
   };
   [[nodiscard]] bool hasLayoutOf(const GridHeader& header) const;
   void build(const GridHeader& header, const GridCells& cells);
-  void write(Tile& tile, const GridTile& cells);
+  [[nodiscard]] bool isChanged(const Tile& tile, const GridCells& now) const;
+  void write(Tile& tile, const GridHeader& header, const GridCells& cells);
   void setBin();
 
   osg::ref_ptr<osg::MatrixTransform> node_;

@@ -8,6 +8,7 @@ PatchStream::PatchStream() : cells_(std::size_t{kSide} * kSide, std::byte{0xFF})
   header_.width = header_.height = kSide;
   header_.resolution_m = 0.05;
   header_.tile_edge = nodes::tileEdge(kSide, kSide);
+  header_.block_edge = nodes::blockEdge(kSide, kSide);
   std::mt19937 random(3);
   for (std::size_t i = 0; i < kPatches; ++i) {
     const auto bytes = std::make_shared<std::vector<std::byte>>(std::size_t{kPatchSide} * kPatchSide);

@@ -1,11 +1,14 @@
 // The layer of compressed clouds: decoded off the view, once, and drawn as any cloud is.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <cstring>
 
 #include "nodes/points/colormap.h"
 #include "scenegraph/objects/compressed_point_cloud.h"
 #include "tests/nodes/scene_picture.h"
+#include "tests/support/golden.h"
+#include "tools/bench/codec_workloads.h"
 #include "tools/sample/cloudini_writer.h"
 
 namespace stillframe::test {
@@ -117,6 +120,54 @@ TEST_F(CompressedCloudPicture, SaysWhichFormatsItReads) {
   EXPECT_THAT(layer.status().message, HasSubstr("'laszip' is not known"));
   EXPECT_EQ(drawnPixels(draw(3_s, fromAbove())), 0);
   EXPECT_EQ(layer.status().code, "MalformedHeader") << "what is within is not what the format says";
+}
+
+/// A scan of a spinning lidar in a room of three lobes.
+class ScanPicture : public ScenePictureTest {
+ protected:
+  template <typename Cloud>
+  scenegraph::BytePicture drawScan(Cloud cloud) {
+    cloud.frame_id = "lidar";
+    DatasetBuilder builder;
+    builder.topic("/tf", ObjectType::FrameTransforms).transform(0, "map", "lidar");
+    builder.topic("/points", Cloud::kType).at(1_s, std::move(cloud));
+    open(builder.build(), "map");
+    add("/points", {{"color_field", "z"}, {"point_size", "2"}});
+    return draw(1_s, {.eye_from_fixed = scenegraph::lookAt({4, -28, 22}, {0, 0, 0}, {0, 0, 1})}, 320, 240);
+  }
+  static int differingPixels(const scenegraph::BytePicture& a, const scenegraph::BytePicture& b) {
+    int differing = 0;
+    for (std::size_t i = 0; i + 2 < a.rgb.size(); i += 3) {
+      const auto apart = [&](std::size_t k) { return std::abs(a.rgb[i + k] - b.rgb[i + k]) > 8; };
+      differing += apart(0) || apart(1) || apart(2) ? 1 : 0;
+    }
+    return differing;
+  }
+};
+
+TEST_F(ScanPicture, IsTheSameFromEitherCodecAndUnpacked) {
+  const bench::CodecWorkload workload = bench::makeCodecWorkload(6000);
+  scenegraph::PointCloud raw;
+  raw.width = 6000;
+  raw.point_step = 18;
+  raw.row_step = 6000 * 18;
+  raw.fields = {{"x", 0, scenegraph::FieldType::Float32},
+                {"y", 4, scenegraph::FieldType::Float32},
+                {"z", 8, scenegraph::FieldType::Float32}};
+  raw.data.bytes = workload.points;
+  CompressedPointCloud cloudini;
+  cloudini.format = "cloudini";
+  cloudini.data = workload.cloudini;
+  CompressedPointCloud draco;
+  draco.format = "draco";
+  draco.data = workload.draco;
+  const auto expected = drawScan(raw);
+  const int drawn = drawnPixels(expected);
+  EXPECT_GT(drawn, 3000);
+  EXPECT_LT(differingPixels(drawScan(draco), expected), drawn / 10);
+  const auto picture = drawScan(cloudini);
+  EXPECT_LT(differingPixels(picture, expected), drawn / 10);
+  EXPECT_TRUE(matchesGolden(picture, "compressed_cloud"));
 }
 
 }  // namespace

@@ -19,12 +19,14 @@ constexpr std::uint32_t kStep = 18;
 
 std::vector<std::byte> scan(std::uint32_t points) {
   constexpr std::uint32_t kRings = 32;
+  const std::uint32_t columns = points / kRings + 1;
   std::vector<std::byte> bytes(std::size_t{points} * kStep);
   std::mt19937 random(1);
   std::normal_distribution<float> noise(0.0F, 0.008F);
   for (std::uint32_t i = 0; i < points; ++i) {
     const auto ring = static_cast<std::uint16_t>(i % kRings);
-    const float azimuth = 6.2831853F * static_cast<float>(i / kRings) / static_cast<float>(points / kRings + 1);
+    const std::uint32_t column = i / kRings;
+    const float azimuth = 6.2831853F * static_cast<float>(column) / static_cast<float>(columns);
     const float range = 12.0F + 6.0F * std::sin(3.0F * azimuth) + noise(random);
     const std::array<float, 4> values = {range * std::cos(azimuth), range * std::sin(azimuth),
                                          range * (static_cast<float>(ring) - 16.0F) * 0.02F,

@@ -125,7 +125,9 @@ void putGorilla(Bytes& out, State& state, std::uint64_t value) {
 void putValue(Bytes& out, const Header& header, const Field& field, State& state, const std::byte* point) {
   const std::byte* const at = point + field.offset;
   const bool is_real = field.type == ValueType::Float32 || field.type == ValueType::Float64;
-  if (header.encoding == Encoding::None || byteSize(field.type) == 1) {
+  const bool is_copied = header.encoding == Encoding::None || byteSize(field.type) == 1 ||
+                         (header.encoding == Encoding::Lossy && field.type == ValueType::Float32 && !field.resolution);
+  if (is_copied) {
     put(out, bitsAt(at, field.type), byteSize(field.type));
   } else if (!is_real) {
     const std::int64_t value = integerAt(at, field.type);
@@ -146,12 +148,10 @@ void putValue(Bytes& out, const Header& header, const Field& field, State& state
     state.integer = integer;
   } else if (field.type == ValueType::Float64 && header.version >= 4 && !field.resolution) {
     putGorilla(out, state, bitsAt(at, field.type));
-  } else if (field.type == ValueType::Float64 || header.encoding == Encoding::Lossless) {
+  } else {
     const std::uint64_t value = bitsAt(at, field.type);
     put(out, value ^ state.bits, byteSize(field.type));
     state.bits = value;
-  } else {
-    put(out, bitsAt(at, field.type), byteSize(field.type));
   }
 }
 

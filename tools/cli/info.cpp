@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
-#include <ranges>
 #include <memory>
+#include <ranges>
 
 #include "tools/cli/commands.h"
 #include "tools/cli/json_text.h"

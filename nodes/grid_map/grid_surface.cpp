@@ -32,7 +32,7 @@ osg::ref_ptr<osg::Texture2D> makeTexture(const scenegraph::GridMap& map, GLint i
 
 std::span<float> texels(const osg::Texture2D& texture, std::size_t cells) {
   // allocateImage() gave storage aligned for any type.
-  return {static_cast<float*>(static_cast<void*>(const_cast<osg::Image*>(texture.getImage())->data())), cells};
+  return {reinterpret_cast<float*>(const_cast<osg::Image*>(texture.getImage())->data()), cells};
 }
 
 }  // namespace

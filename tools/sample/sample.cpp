@@ -23,6 +23,8 @@ std::vector<std::unique_ptr<Topic>> makeTopics(const Stage& stage, const SampleO
   topics.push_back(makeOdometryTransforms(stage));
   topics.push_back(makeLidar(stage, options.lidar_points));
   topics.push_back(makeDepthCamera(stage));
+  topics.push_back(makeScanner(stage));
+  topics.push_back(makeHeightMap(stage));
   return topics;
 }
 

@@ -37,10 +37,13 @@ class Topic {
 [[nodiscard]] std::unique_ptr<Topic> makeLocalisationTransforms(const Stage& stage);
 [[nodiscard]] std::unique_ptr<Topic> makeLidar(const Stage& stage, std::uint32_t points);
 [[nodiscard]] std::unique_ptr<Topic> makeDepthCamera(const Stage& stage);
+[[nodiscard]] std::unique_ptr<Topic> makeScanner(const Stage& stage);
+[[nodiscard]] std::unique_ptr<Topic> makeHeightMap(const Stage& stage);
 
 /// Where the sensors are mounted: /tf_static says the same.
 [[nodiscard]] tf::RigidTransform baseFromLidar();
 [[nodiscard]] tf::RigidTransform baseFromCamera();
+[[nodiscard]] tf::RigidTransform baseFromScanner();
 /// The optical frame looks along +z with x right and y down.
 [[nodiscard]] tf::RigidTransform cameraFromOptical();
 

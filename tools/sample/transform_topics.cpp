@@ -26,6 +26,7 @@ class StaticTransforms final : public Topic {
         FrameTransform{stamp, "base_link", "lidar_link", baseFromLidar()},
         FrameTransform{stamp, "base_link", "camera_link", baseFromCamera()},
         FrameTransform{stamp, "camera_link", "camera_optical_frame", cameraFromOptical()},
+        FrameTransform{stamp, "base_link", "scan_link", baseFromScanner()},
     };
     return serializeTfMessage(transforms);
   }
@@ -76,6 +77,8 @@ class LocalisationTransforms final : public Topic {
 }  // namespace
 
 tf::RigidTransform baseFromLidar() { return {{1.0, 0.0, 0.0, 0.0}, {0.05, 0.0, 0.95}}; }
+
+tf::RigidTransform baseFromScanner() { return {{1.0, 0.0, 0.0, 0.0}, {0.3, 0.0, 0.25}}; }
 
 tf::RigidTransform baseFromCamera() {
   constexpr double kPitchDown = 0.09;

@@ -38,7 +38,7 @@ TEST(RenderCommand, DrawsTheSampleAndSaysWhat) {
   EXPECT_GT(said["frame_ms"].get<double>(), 0.0);
   EXPECT_EQ(said["passes"][0], "scene");
   const auto layers = byTopic(said);
-  ASSERT_EQ(layers.size(), 4U) << said;
+  ASSERT_EQ(layers.size(), 6U) << said;
   const auto& lidar = layers.at("/lidar/points");
   EXPECT_EQ(lidar["frame"], "lidar_link");
   EXPECT_EQ(lidar["visible"], true);

@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "nodes/grid_map/map_cells.h"
+#include "nodes/laser_scan/scan_cloud.h"
+#include "nodes/laser_scan/sensor_motion.h"
+#include "scenegraph/objects/grid_map.h"
+#include "scenegraph/objects/laser_scan.h"
+#include "tools/ingest/recording.h"
+#include "tools/sample/robot.h"
+#include "tools/sample/sample.h"
+#include "tools/sample/topic.h"
+
+namespace stillframe::sample {
+namespace {
+
+constexpr SampleOptions kOptions{.duration_ns = 8'000'000'000, .lidar_points = 100, .seed = 1};
+
+class SampleScan : public testing::Test {
+ protected:
+  SampleScan() : path_(std::filesystem::path(testing::TempDir()) / "stillframe_sample_scan.mcap") {
+    EXPECT_TRUE(writeSample(path_, kOptions));
+    const std::vector<std::filesystem::path> files{path_};
+    auto recording = ingest::Recording::open(files);
+    EXPECT_TRUE(recording);
+    recording_ = std::move(*recording);
+    recording_->load();
+    recording_->dataset()->takeTransforms();
+  }
+  ~SampleScan() override { std::filesystem::remove(path_); }
+
+  /// All messages of a topic.
+  template <typename T>
+  std::vector<std::shared_ptr<const T>> messages(const char* topic) const {
+    const scenegraph::ObjectStore& store = recording_->dataset()->store();
+    std::vector<std::shared_ptr<const T>> result;
+    const auto id = store.findTopic(topic, T::kType);
+    for (std::size_t i = 0; id && i < store.entryCount(*id); ++i) {
+      const auto object = store.decode(*id, *store.at(*id, i));
+      EXPECT_TRUE(object);
+      result.push_back(object->template get<T>());
+    }
+    return result;
+  }
+
+  std::filesystem::path path_;
+  std::shared_ptr<ingest::Recording> recording_;
+};
+
+/// How far points that belong to the two free walls lie off them: root of the mean square, in metres; nullopt when
+/// hardly any are seen.
+std::optional<double> offWalls(const scenegraph::PointCloud& cloud, const tf::RigidTransform& map_from_scanner) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cloud.width; ++i) {
+    float xyz[3];
+    std::memcpy(xyz, cloud.data.bytes.data() + i * cloud.point_step, sizeof xyz);
+    const auto point = tf::transformPoint(map_from_scanner, {xyz[0], xyz[1], xyz[2]});
+    // Along the other two walls stand racks.
+    if (const double off = std::abs(point.x) - 15.0; std::abs(off) < 0.2) {
+      sum += off * off;
+      ++count;
+    }
+  }
+  return count > 10 ? std::optional(std::sqrt(sum / static_cast<double>(count))) : std::nullopt;
+}
+
+TEST_F(SampleScan, DeskewedWallsAreFlatWithinACentimetre) {
+  const Robot robot(kOptions.seed, kOptions.duration_ns);
+  const auto scans = messages<scenegraph::LaserScan>("/scan");
+  ASSERT_EQ(scans.size(), 41U);
+  const tf::TransformBuffer& buffer = *recording_->dataset()->transforms();
+  double worst_m = 0.0;
+  double worst_raw_m = 0.0;
+  int compared = 0;
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    const auto scan = nodes::convertScan(*scans[i]);
+    ASSERT_TRUE(scan);
+    const tf::TimePoint first = scans[i]->stamp;
+    const auto end = tf::TimePoint{first.ns + std::llround(scan->duration_s * 1e9)};
+    const auto motion = nodes::SensorMotion::sample(buffer, "odom", "scan_link", first, end);
+    ASSERT_TRUE(motion) << motion.error().message;
+    // By where the robot truly was, so that nothing but the shape of the scan is measured.
+    const auto map_from_scanner = toRigid(robot.truth(first.ns - 1'700'000'000'000'000'000)) * baseFromScanner();
+    const auto off_m = offWalls(nodes::deskew(scan->cloud, *motion, first), map_from_scanner);
+    if (!off_m) {
+      continue;
+    }
+    EXPECT_LT(*off_m, 0.01) << "scan " << i;
+    worst_m = std::max(worst_m, *off_m);
+    worst_raw_m = std::max(worst_raw_m, offWalls(scan->cloud, map_from_scanner).value_or(0.0));
+    ++compared;
+  }
+  EXPECT_GE(compared, 10);
+  EXPECT_GT(worst_raw_m, 0.02) << "nothing to mend";
+  RecordProperty("off_um", static_cast<int>(worst_m * 1e6));
+  RecordProperty("off_without_um", static_cast<int>(worst_raw_m * 1e6));
+}
+
+TEST_F(SampleScan, ElevationMapHasTheWarehouse) {
+  const auto maps = messages<scenegraph::GridMap>("/elevation_map");
+  ASSERT_EQ(maps.size(), 1U);
+  EXPECT_EQ(maps[0]->column_count, 140U);
+  EXPECT_EQ(maps[0]->row_count, 90U);
+  const auto cells = nodes::readMapCells(*maps[0]);
+  ASSERT_TRUE(cells) << cells.error().message;
+  std::vector<float> heights(cells->all.points);
+  const auto limits = nodes::convertChannel(cells->records, cells->all, cells->layers.front(), heights);
+  EXPECT_EQ(limits.low, 0.0);
+  EXPECT_LE(limits.high, 3.0);
+  EXPECT_LT(limits.finite, heights.size()) << "racks are higher than the map reaches";
+  // The loading dock, 1 m high, stands in the corner of both greatest coordinates and in no other.
+  const auto heightAt = [&](double x, double y) {
+    return heights[static_cast<std::size_t>((y + 9.0) / 0.2) * 140 + static_cast<std::size_t>((x + 14.0) / 0.2)];
+  };
+  EXPECT_NEAR(heightAt(13.5, 8.5), 1.0, 1e-6);
+  EXPECT_NE(heightAt(13.5, -8.5), heightAt(13.5, 8.5));
+  EXPECT_NE(heightAt(-13.5, 8.5), heightAt(13.5, 8.5));
+}
+
+}  // namespace
+}  // namespace stillframe::sample

@@ -47,7 +47,7 @@ PointCloud makeCloud(std::size_t points, std::uint32_t step, Layout layout) {
                               : coordinate(random);
       std::byte* const at = bytes->data() + i * step + std::size_t{k} * size;
       const auto put = [&](auto number) {
-        if (k * size + sizeof(number) <= step) {
+        if (std::size_t{k} * size + sizeof(number) <= step) {
           std::memcpy(at, &number, sizeof(number));
         }
       };

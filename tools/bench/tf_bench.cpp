@@ -28,7 +28,7 @@ void lookupAnyTime(benchmark::State& state, ChainWorkload& chain, const Transfor
   }
 }
 
-void BM_Lookup16DeepInOneHourOf100Hz(benchmark::State& state) {
+void bmLookup16DeepInOneHourOf100Hz(benchmark::State& state) {
   static ChainWorkload chain(16, 360'000);
   static const auto buffer = [] {
     auto loaded = chain.load();
@@ -38,11 +38,11 @@ void BM_Lookup16DeepInOneHourOf100Hz(benchmark::State& state) {
   lookupAnyTime(state, chain, *buffer);
   state.counters["target_us"] = 2;
 }
-BENCHMARK(BM_Lookup16DeepInOneHourOf100Hz)
+BENCHMARK(bmLookup16DeepInOneHourOf100Hz)
     ->Name("Lookup16DeepInOneHourOf100Hz/target_below_2us")
     ->Unit(benchmark::kMicrosecond);
 
-void BM_Lookup16DeepShuffledHour(benchmark::State& state) {
+void bmLookup16DeepShuffledHour(benchmark::State& state) {
   static ChainWorkload chain(16, 360'000);
   static const auto buffer = [] {
     chain.shuffle();
@@ -53,21 +53,21 @@ void BM_Lookup16DeepShuffledHour(benchmark::State& state) {
   lookupAnyTime(state, chain, *buffer);
   state.counters["target_us"] = 2;
 }
-BENCHMARK(BM_Lookup16DeepShuffledHour)
+BENCHMARK(bmLookup16DeepShuffledHour)
     ->Name("Lookup16DeepInOneHourThatCameShuffled/target_below_2us")
     ->Unit(benchmark::kMicrosecond);
 
-void BM_Lookup256DeepIn10sOf100Hz(benchmark::State& state) {
+void bmLookup256DeepIn10sOf100Hz(benchmark::State& state) {
   static ChainWorkload chain(256, 1000);
   static const auto buffer = chain.load();
   lookupAnyTime(state, chain, *buffer);
   state.counters["target_us"] = 20;
 }
-BENCHMARK(BM_Lookup256DeepIn10sOf100Hz)
+BENCHMARK(bmLookup256DeepIn10sOf100Hz)
     ->Name("Lookup256DeepIn10sOf100Hz/target_below_20us")
     ->Unit(benchmark::kMicrosecond);
 
-void BM_SnapshotOf1000Frames(benchmark::State& state) {
+void bmSnapshotOf1000Frames(benchmark::State& state) {
   static const auto buffer = makeRandomTree(1000);
   Snapshot snapshot;
   std::int64_t tick = 0;
@@ -77,7 +77,7 @@ void BM_SnapshotOf1000Frames(benchmark::State& state) {
   }
   state.counters["target_us"] = 100;
 }
-BENCHMARK(BM_SnapshotOf1000Frames)->Name("SnapshotOf1000Frames/target_below_100us")->Unit(benchmark::kMicrosecond);
+BENCHMARK(bmSnapshotOf1000Frames)->Name("SnapshotOf1000Frames/target_below_100us")->Unit(benchmark::kMicrosecond);
 
 void bulkInsert(benchmark::State& state, const ChainWorkload& chain, double target) {
   std::size_t bytes = 0;
@@ -93,13 +93,13 @@ void bulkInsert(benchmark::State& state, const ChainWorkload& chain, double targ
       static_cast<double>(bytes) / static_cast<double>(chain.samples().size());
 }
 
-void BM_BulkInsertInOrder(benchmark::State& state) {
+void bmBulkInsertInOrder(benchmark::State& state) {
   static const ChainWorkload chain(16, 60'000);
   bulkInsert(state, chain, 5e6);
 }
-BENCHMARK(BM_BulkInsertInOrder)->Name("BulkInsertInOrder/target_above_5M_per_s")->Unit(benchmark::kMillisecond);
+BENCHMARK(bmBulkInsertInOrder)->Name("BulkInsertInOrder/target_above_5M_per_s")->Unit(benchmark::kMillisecond);
 
-void BM_BulkInsertShuffled(benchmark::State& state) {
+void bmBulkInsertShuffled(benchmark::State& state) {
   static const auto chain = [] {
     ChainWorkload workload(16, 60'000);
     workload.shuffle();
@@ -107,7 +107,7 @@ void BM_BulkInsertShuffled(benchmark::State& state) {
   }();
   bulkInsert(state, chain, 1e6);
 }
-BENCHMARK(BM_BulkInsertShuffled)->Name("BulkInsertShuffled/target_above_1M_per_s")->Unit(benchmark::kMillisecond);
+BENCHMARK(bmBulkInsertShuffled)->Name("BulkInsertShuffled/target_above_1M_per_s")->Unit(benchmark::kMillisecond);
 
 void singleInserts(benchmark::State& state, const ChainWorkload& chain) {
   for (auto _ : state) {
@@ -119,13 +119,13 @@ void singleInserts(benchmark::State& state, const ChainWorkload& chain) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(chain.samples().size()));
 }
 
-void BM_SingleInsertsInOrder(benchmark::State& state) {
+void bmSingleInsertsInOrder(benchmark::State& state) {
   static const ChainWorkload chain(16, 60'000);
   singleInserts(state, chain);
 }
-BENCHMARK(BM_SingleInsertsInOrder)->Name("SingleInsertsInOrder")->Unit(benchmark::kMillisecond);
+BENCHMARK(bmSingleInsertsInOrder)->Name("SingleInsertsInOrder")->Unit(benchmark::kMillisecond);
 
-void BM_SingleInsertsShuffled(benchmark::State& state) {
+void bmSingleInsertsShuffled(benchmark::State& state) {
   static const auto chain = [] {
     ChainWorkload workload(16, 60'000);
     workload.shuffle();
@@ -133,9 +133,9 @@ void BM_SingleInsertsShuffled(benchmark::State& state) {
   }();
   singleInserts(state, chain);
 }
-BENCHMARK(BM_SingleInsertsShuffled)->Name("SingleInsertsShuffled")->Unit(benchmark::kMillisecond);
+BENCHMARK(bmSingleInsertsShuffled)->Name("SingleInsertsShuffled")->Unit(benchmark::kMillisecond);
 
-void BM_Readers(benchmark::State& state) {
+void bmReaders(benchmark::State& state) {
   static const ChainWorkload chain(16, 6'000);
   static const auto buffer = chain.load();
   const auto readers = static_cast<int>(state.range(0));
@@ -148,7 +148,7 @@ void BM_Readers(benchmark::State& state) {
   state.counters["lookups_per_s"] = rate;
   state.counters["per_reader"] = rate / readers;
 }
-BENCHMARK(BM_Readers)
+BENCHMARK(bmReaders)
     ->Name("Readers_Writers/target_no_slowdown_by_readers_and_above_a_third_beside_a_writer")
     ->Args({1, 0})
     ->Args({2, 0})

@@ -23,21 +23,21 @@ using tf::RigidTransform;
 
 /// visualization_msgs/Marker's numbers.
 enum MarkerType : std::int32_t {
-  kArrow,
-  kCube,
-  kSphere,
-  kCylinder,
-  kLineStrip,
-  kLineList,
-  kCubeList,
-  kSphereList,
-  kPoints,
-  kText,
-  kMesh,
-  kTriangleList,
-  kArrowStrip,
+  Arrow,
+  Cube,
+  Sphere,
+  Cylinder,
+  LineStrip,
+  LineList,
+  CubeList,
+  SphereList,
+  Points,
+  Text,
+  Mesh,
+  TriangleList,
+  ArrowStrip,
 };
-enum MarkerAction : std::int32_t { kAdd = 0, kDelete = 2, kDeleteAll = 3 };
+enum MarkerAction : std::int32_t { Add = 0, Delete = 2, DeleteAll = 3 };
 
 // Proportions of an arrow with a pose (RViz): its shaft and head along x, the head's width against the shaft's.
 constexpr double kShaftShare = 0.77;
@@ -83,7 +83,7 @@ const EntityColor& colorOf(const MarkerRow& marker, std::size_t point) {
 
 /// Why a marker cannot be drawn, half a sentence.
 std::optional<std::string> faultOf(const MarkerRow& marker) {
-  if (marker.type < kArrow || marker.type > kArrowStrip) {
+  if (marker.type < Arrow || marker.type > ArrowStrip) {
     return sentence("has the unknown type ", marker.type);
   }
   if (!tf::isFinite(marker.pose) || !isFinite(marker.scale)) {
@@ -95,28 +95,28 @@ std::optional<std::string> faultOf(const MarkerRow& marker) {
   }
   const std::size_t points = marker.points.size();
   const auto isOf = [&](auto... types) { return ((marker.type == types) || ...); };
-  if (isOf(kArrow, kArrowStrip) && points == 1) {
+  if (isOf(Arrow, ArrowStrip) && points == 1) {
     return "is an arrow with exactly one point";
   }
-  if (isOf(kLineList) && points % 2 != 0) {
+  if (isOf(LineList) && points % 2 != 0) {
     return sentence("is a list of lines with ", points, " points, an odd number");
   }
-  if (isOf(kTriangleList) && points % 3 != 0) {
+  if (isOf(TriangleList) && points % 3 != 0) {
     return sentence("is a list of triangles with ", points, " points, not a multiple of 3");
   }
-  const bool has_colors = isOf(kLineStrip, kLineList, kCubeList, kSphereList, kPoints, kTriangleList, kArrowStrip);
-  const bool is_by_triangle = isOf(kTriangleList) && marker.colors.size() * 3 == points;
+  const bool has_colors = isOf(LineStrip, LineList, CubeList, SphereList, Points, TriangleList, ArrowStrip);
+  const bool is_by_triangle = isOf(TriangleList) && marker.colors.size() * 3 == points;
   if (has_colors && !marker.colors.empty() && marker.colors.size() != points && !is_by_triangle) {
     return sentence("has ", marker.colors.size(), " colors for ", points, " points");
   }
-  if (isOf(kMesh) && marker.mesh_resource.empty() && marker.mesh_data.empty()) {
+  if (isOf(Mesh) && marker.mesh_resource.empty() && marker.mesh_data.empty()) {
     return "is a mesh without a resource";
   }
   return std::nullopt;
 }
 
 void addArrows(const MarkerRow& marker, SceneEntity& out) {
-  if (marker.type == kArrowStrip) {
+  if (marker.type == ArrowStrip) {
     for (std::size_t i = 1; i < marker.points.size(); ++i) {
       out.arrows.push_back(arrowBetween(marker, marker.points[i - 1], marker.points[i], colorOf(marker, i - 1)));
     }
@@ -156,22 +156,22 @@ void addList(const MarkerRow& marker, std::vector<Primitive>& out) {
 
 void addPrimitives(MarkerRow& marker, const MessageView& payloads, SceneEntity& out) {
   switch (marker.type) {
-    case kArrow:
-    case kArrowStrip:
+    case Arrow:
+    case ArrowStrip:
       addArrows(marker, out);
       break;
-    case kCube:
+    case Cube:
       out.cubes.push_back({marker.pose, marker.scale, marker.color});
       break;
-    case kSphere:
+    case Sphere:
       out.spheres.push_back({marker.pose, marker.scale, marker.color});
       break;
-    case kCylinder:
+    case Cylinder:
       out.cylinders.push_back({marker.pose, marker.scale, 1.0, 1.0, marker.color});
       break;
-    case kLineStrip:
-    case kLineList:
-      out.lines.push_back({marker.type == kLineStrip ? LineType::Strip : LineType::List,
+    case LineStrip:
+    case LineList:
+      out.lines.push_back({marker.type == LineStrip ? LineType::Strip : LineType::List,
                            marker.pose,
                            marker.scale.x,
                            false,
@@ -180,25 +180,25 @@ void addPrimitives(MarkerRow& marker, const MessageView& payloads, SceneEntity& 
                            std::move(marker.colors),
                            {}});
       break;
-    case kCubeList:
+    case CubeList:
       addList(marker, out.cubes);
       break;
-    case kSphereList:
+    case SphereList:
       addList(marker, out.spheres);
       break;
-    case kPoints:
+    case Points:
       out.points.push_back({marker.pose, marker.scale.x, marker.scale.y, std::move(marker.points), marker.color,
                             std::move(marker.colors)});
       break;
-    case kText:
+    case Text:
       out.texts.push_back({marker.pose, true, marker.scale.z, false, marker.color, std::string(marker.text)});
       break;
-    case kMesh:
+    case Mesh:
       out.models.push_back({marker.pose, marker.scale, marker.color, !marker.has_embedded_materials,
                             std::string(marker.mesh_resource), "",
                             marker.mesh_data.empty() ? scenegraph::Payload{} : payloadOf(marker.mesh_data, payloads)});
       break;
-    case kTriangleList:
+    case TriangleList:
       addTriangles(marker, out);
       break;
     default:
@@ -214,7 +214,7 @@ void appendMarker(MarkerRow& marker, const MessageView& payloads, scenegraph::Sc
   };
   std::string id = sentence(marker.ns.size(), ":", marker.ns, ":", marker.id);
   switch (marker.action) {
-    case kAdd: {
+    case Add: {
       SceneEntity& entity = out.entities.emplace_back();
       entity.stamp = marker.stamp;
       entity.frame_id = tf::stripLeadingSlashes(marker.frame_id);
@@ -230,10 +230,10 @@ void appendMarker(MarkerRow& marker, const MessageView& payloads, scenegraph::Sc
       out.steps.push_back({false, out.entities.size() - 1});
       return;
     }
-    case kDelete:
-    case kDeleteAll: {
+    case Delete:
+    case DeleteAll: {
       scenegraph::SceneEntityDeletion& deletion = out.deletions.emplace_back();
-      const bool is_all = marker.action == kDeleteAll;
+      const bool is_all = marker.action == DeleteAll;
       deletion.type =
           is_all ? scenegraph::SceneEntityDeletion::Type::All : scenegraph::SceneEntityDeletion::Type::MatchingId;
       deletion.stamp = {std::numeric_limits<std::int64_t>::max()};

@@ -21,7 +21,6 @@ LIBRARIES = {
     "OpenGL": re.compile(r"(GL|EGL|KHR)/"),
     "OpenEXR": re.compile(r"(OpenEXR/|Imath/|Imf|Iex|Imath|half\.h)"),
     "Qt": re.compile(r"Q[A-Z]|Qt"),
-    "Fast-CDR": re.compile(r"fastcdr/"),
     "LZ4": re.compile(r"lz4"),
     "Zstandard": re.compile(r"zstd"),
     "PNG": re.compile(r"png\.h"),

@@ -70,7 +70,7 @@ TEST(ConverterData, LaserScans) {
   for (const char* name : {"combined_scene_20s", "intel_lab_2d_slam", "turtlebot3_scan_odom"}) {
     samples += Answered(name).eachSample<scenegraph::LaserScan>(
         "sensor_msgs/LaserScan", [](const scenegraph::LaserScan& scan, const json& sample) {
-          EXPECT_EQ(scan.frame_id, sample["frame_id"]);
+          EXPECT_EQ(json(scan.frame_id), sample["frame_id"]);
           EXPECT_EQ(scan.ranges_m.size(), sample["beams"]);
           std::size_t valid = 0;
           double box[4] = {1e9, 1e9, -1e9, -1e9};
@@ -102,7 +102,7 @@ TEST(ConverterData, PathsAndPoseArrays) {
       const bool is_path = std::string_view(schema) == "nav_msgs/Path";
       samples += answered.eachSample<scenegraph::PosesInFrame>(
           schema, [&](const scenegraph::PosesInFrame& poses, const json& sample) {
-            EXPECT_EQ(poses.frame_id, sample["frame_id"]);
+            EXPECT_EQ(json(poses.frame_id), sample["frame_id"]);
             EXPECT_EQ(poses.kind, is_path ? scenegraph::PosesKind::Path : scenegraph::PosesKind::Array);
             ASSERT_EQ(poses.poses.size(), sample["poses"]);
             EXPECT_EQ(poses.stamps.size(), is_path ? poses.poses.size() : 0u);
@@ -125,7 +125,7 @@ TEST(ConverterData, OccupancyGrids) {
     const Answered answered(name);
     samples += answered.eachSample<scenegraph::OccupancyGrid>(
         "nav_msgs/OccupancyGrid", [](const scenegraph::OccupancyGrid& grid, const json& sample) {
-          EXPECT_EQ(grid.frame_id, sample["frame_id"]);
+          EXPECT_EQ(json(grid.frame_id), sample["frame_id"]);
           EXPECT_EQ(grid.width, sample["width"]);
           EXPECT_EQ(grid.height, sample["height"]);
           EXPECT_EQ(grid.resolution_m, sample["resolution"]);
@@ -164,7 +164,7 @@ TEST(ConverterData, GridMaps) {
           EXPECT_NEAR(map.origin.translation.x, -0.5 * sample["length"][0].get<double>(), 1e-9);
           EXPECT_NEAR(map.origin.translation.y, -0.5 * sample["length"][1].get<double>(), 1e-9);
           for (std::size_t i = 0; i < layers.size(); ++i) {
-            EXPECT_EQ(map.fields[i].name, layers[i]["name"]);
+            EXPECT_EQ(json(map.fields[i].name), layers[i]["name"]);
             std::size_t holes = 0;
             float low = INFINITY;
             float high = -INFINITY;
@@ -190,8 +190,8 @@ TEST(ConverterData, Images) {
     const Answered answered(name);
     samples += answered.eachSample<scenegraph::Image>(
         "sensor_msgs/Image", [](const scenegraph::Image& image, const json& sample) {
-          EXPECT_EQ(image.frame_id, sample["frame_id"]);
-          EXPECT_EQ(image.encoding, sample["encoding"]);
+          EXPECT_EQ(json(image.frame_id), sample["frame_id"]);
+          EXPECT_EQ(json(image.encoding), sample["encoding"]);
           EXPECT_EQ(image.width, sample["width"]);
           EXPECT_EQ(image.height, sample["height"]);
           EXPECT_EQ(image.row_step, sample["step"]);

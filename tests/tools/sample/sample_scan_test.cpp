@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "nodes/grid_map/map_cells.h"
@@ -24,7 +25,9 @@ constexpr SampleOptions kOptions{.duration_ns = 8'000'000'000, .lidar_points = 1
 
 class SampleScan : public testing::Test {
  protected:
-  SampleScan() : path_(std::filesystem::path(testing::TempDir()) / "stillframe_sample_scan.mcap") {
+  SampleScan()
+      : path_(std::filesystem::path(testing::TempDir()) /
+              (std::string("stillframe_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".mcap")) {
     EXPECT_TRUE(writeSample(path_, kOptions));
     const std::vector<std::filesystem::path> files{path_};
     auto recording = ingest::Recording::open(files);

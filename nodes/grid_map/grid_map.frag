@@ -43,7 +43,7 @@ void main() {
     discard;
   }
   if (u_shading) {
-    color.rgb *= 0.4 + 0.6 * clamp(dot(normalize(v_normal), kLight), 0.0, 1.0);
+    color.rgb *= sfShade(dot(normalize(v_normal), kLight));
   }
   gl_FragColor = sfOutput(color);
 }

@@ -1,9 +1,8 @@
 #include "nodes/grid_map/grid_map_state.h"
 
-#include <osg/BlendFunc>
-
 #include "generated/stillframe_nodes/shaders.h"
 #include "nodes/points/colormap.h"
+#include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
@@ -47,17 +46,7 @@ void GridMapState::apply(const GridMapSettings& settings, bool is_surface, bool 
   missing_is_hole_->set(!is_surface);
   shading_->set(settings.shading && is_surface);
   opacity_->set(static_cast<float>(settings.opacity));
-  if (settings.opacity < 1.0 || is_translucent) {
-    // Alpha of the target stays that of an opaque picture.
-    state_->setAttributeAndModes(
-        new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA),
-        osg::StateAttribute::ON);
-    state_->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
-  } else {
-    state_->removeAttribute(osg::StateAttribute::BLENDFUNC);
-    state_->removeMode(GL_BLEND);
-    state_->setRenderingHint(osg::StateSet::DEFAULT_BIN);
-  }
+  scenegraph::setBlended(*state_, settings.opacity < 1.0 || is_translucent);
 }
 
 void GridMapState::setCells(const glm::dvec2& cell_size_m, std::uint32_t columns, std::uint32_t rows) {

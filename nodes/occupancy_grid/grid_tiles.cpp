@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
-#include <osg/BlendFunc>
 #include <osg/Texture2D>
 
 #include "generated/stillframe_nodes/shaders.h"
 #include "nodes/osg_math.h"
+#include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
@@ -70,14 +70,7 @@ void GridTiles::setBin() {
   osg::StateSet& state = *node_->getStateSet();
   const bool is_blended = settings_.alpha < 1.0 || settings_.color_scheme == "costmap";
   const int order = static_cast<int>(std::min(order_, kMostBins));
-  if (is_blended) {
-    // Alpha of the target stays that of an opaque picture.
-    state.setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA),
-                               osg::StateAttribute::ON);
-  } else {
-    state.removeAttribute(osg::StateAttribute::BLENDFUNC);
-    state.removeMode(GL_BLEND);
-  }
+  scenegraph::setBlended(state, is_blended);  // the bins below order grids among each other
   if (settings_.draw_behind) {
     // Neither tests nor writes depth, and comes first.
     state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);

@@ -1,10 +1,10 @@
 #include "nodes/point_cloud/cloud_state.h"
 
-#include <osg/BlendFunc>
 #include <osg/PointSprite>
 
 #include "generated/stillframe_nodes/shaders.h"
 #include "nodes/points/colormap.h"
+#include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
@@ -55,17 +55,7 @@ void CloudState::apply(const PointCloudSettings& settings) {
     state_->removeTextureAttribute(0, osg::StateAttribute::POINTSPRITE);
     state_->removeMode(GL_POINT_SPRITE_ARB);  // OSG leaves it behind
   }
-  if (settings.opacity < 1.0) {
-    // Alpha of the target stays that of an opaque picture.
-    state_->setAttributeAndModes(
-        new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA),
-        osg::StateAttribute::ON);
-    state_->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
-  } else {
-    state_->removeAttribute(osg::StateAttribute::BLENDFUNC);
-    state_->removeMode(GL_BLEND);
-    state_->setRenderingHint(osg::StateSet::DEFAULT_BIN);
-  }
+  scenegraph::setBlended(*state_, settings.opacity < 1.0);
 }
 
 void CloudState::setColormap(const std::string& name) {

@@ -17,3 +17,29 @@ vec3 sfLinearFromSrgb(vec3 srgb) {
 vec4 sfOutput(vec4 srgb) {
   return u_linear_output > 0.5 ? vec4(sfLinearFromSrgb(srgb.rgb), srgb.a) : srgb;
 }
+
+// Turns normals by a matrix with any scale: negative (normals stay outside), uneven, or zero along one axis.
+mat3 sfNormalMatrix(mat3 m) {
+  vec3 largest = max(max(abs(m[0]), abs(m[1])), abs(m[2]));
+  m /= max(max(largest.x, max(largest.y, largest.z)), 1e-30);
+  mat3 cofactors = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
+  return dot(m[0], cofactors[0]) < 0.0 ? -cofactors : cofactors;
+}
+
+// The light on a surface whose normal and lamp have this cosine, a factor for its sRGB-encoded colour.
+float sfShade(float cosine) { return 0.4 + 0.6 * clamp(cosine, 0.0, 1.0); }
+
+// The light on a surface, a factor for its sRGB-encoded colour: a lamp at the eye, and a sky above the picture. A surface
+// that faces the eye keeps its colour. Two-sided: the side that is seen is the one that is lit.
+float sfLight(vec3 normal_in_eye, vec3 position_in_eye, bool is_two_sided) {
+  bool is_orthographic = gl_ProjectionMatrix[3][3] == 1.0;
+  vec3 to_eye = is_orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-position_in_eye);
+  float size = length(normal_in_eye);
+  vec3 normal = size > 0.0 ? normal_in_eye / size : to_eye;
+  float facing = dot(normal, to_eye);
+  if (is_two_sided && facing < 0.0) {
+    normal = -normal;
+    facing = -facing;
+  }
+  return min(sfShade(facing) + 0.12 * normal.y * (1.0 - abs(facing)), 1.0);
+}

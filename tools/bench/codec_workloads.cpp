@@ -1,16 +1,14 @@
 #include "tools/bench/codec_workloads.h"
 
 #include <draco/compression/decode.h>
-#include <draco/compression/expert_encode.h>
-#include <draco/point_cloud/point_cloud_builder.h>
 
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <random>
-#include <stdexcept>
 
 #include "tools/sample/cloudini_writer.h"
+#include "tools/sample/draco_writer.h"
 
 namespace stillframe::bench {
 namespace {
@@ -53,30 +51,18 @@ scenegraph::Payload toCloudini(const std::vector<std::byte>& points) {
 }
 
 scenegraph::Payload toDraco(const std::vector<std::byte>& points) {
-  const auto count = static_cast<std::uint32_t>(points.size() / kStep);
-  draco::PointCloudBuilder builder;
-  builder.Start(count);
-  const std::array attributes = {builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32),
-                                 builder.AddAttribute(draco::GeometryAttribute::GENERIC, 1, draco::DT_FLOAT32),
-                                 builder.AddAttribute(draco::GeometryAttribute::GENERIC, 1, draco::DT_UINT16)};
-  constexpr std::array<std::size_t, 3> kOffsets = {0, 12, 16};
-  for (std::uint32_t i = 0; i < count; ++i) {
-    for (std::size_t k = 0; k < attributes.size(); ++k) {
-      builder.SetAttributeValueForPoint(attributes[k], draco::PointIndex(i),
-                                        points.data() + std::size_t{i} * kStep + kOffsets[k]);
-    }
-  }
-  const auto cloud = builder.Finalize(false);
-  draco::ExpertEncoder encoder(*cloud);
-  encoder.SetEncodingMethod(draco::POINT_CLOUD_SEQUENTIAL_ENCODING);
-  encoder.SetAttributeQuantization(attributes[0], 14);
-  encoder.SetAttributeQuantization(attributes[1], 14);
-  draco::EncoderBuffer buffer;
-  if (!encoder.EncodeToBuffer(&buffer).ok()) {
-    throw std::logic_error("libdraco does not encode the benchmark's cloud");
-  }
-  const auto bytes = std::as_bytes(std::span(buffer.data(), buffer.size()));
-  return sample::toPayload({bytes.begin(), bytes.end()});
+  using scenegraph::FieldType;
+  scenegraph::PointCloud cloud;
+  cloud.width = static_cast<std::uint32_t>(points.size() / kStep);
+  cloud.point_step = kStep;
+  cloud.row_step = cloud.width * kStep;
+  cloud.fields = {{"x", 0, FieldType::Float32},
+                  {"y", 4, FieldType::Float32},
+                  {"z", 8, FieldType::Float32},
+                  {"intensity", 12, FieldType::Float32},
+                  {"ring", 16, FieldType::Uint16}};
+  cloud.data.bytes = points;
+  return sample::toPayload(sample::writeDraco(cloud, 14));
 }
 
 }  // namespace

@@ -1,110 +1,29 @@
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstring>
-#include <glm/geometric.hpp>
-#include <numbers>
-
-#include "tools/sample/random.h"
-#include "tools/sample/topic.h"
+#include "tools/sample/lidar.h"
 
 namespace stillframe::sample {
 namespace {
 
-constexpr std::uint32_t kRings = 32;
-constexpr std::uint32_t kPointStep = 22;  // packed, as velodyne drivers send it
-constexpr double kLowest_rad = -0.5352;   // -30.67 and +10.67 degrees: the fan of an HDL-32E
-constexpr double kHighest_rad = 0.1862;
-constexpr double kRangeNoise_m = 0.008;
-constexpr double kMaxRange_m = 100.0;
-
-static_assert(std::endian::native == std::endian::little);  // points are copied into the message as they are in memory
-
-/// A spinning lidar of 32 rings at 10 Hz, its points moved to the place the sensor has at the stamp. Every beam
-/// returns.
-class Lidar final : public Topic {
+/// A spinning lidar of 32 rings at 10 Hz.
+class LidarPoints final : public Topic {
  public:
-  Lidar(const Stage& stage, std::uint32_t points) : stage_(stage), points_(points) {
-    for (std::uint32_t ring = 0; ring < kRings; ++ring) {
-      const double elevation = kLowest_rad + (kHighest_rad - kLowest_rad) * ring / (kRings - 1);
-      sines_[ring] = std::sin(elevation);
-      cosines_[ring] = std::cos(elevation);
-    }
-  }
+  LidarPoints(const Stage& stage, std::uint32_t points) : stage_(stage), lidar_(points) {}
   std::string_view name() const override { return "/lidar/points"; }
   Ros2Type type() const override { return pointCloud2Type(); }
   std::int64_t periodNs() const override { return 100'000'000; }
-
   std::vector<std::byte> message(std::int64_t elapsed_ns) const override {
-    using scenegraph::FieldType;
-    std::vector<std::byte> data(std::size_t{points_} * kPointStep);
-    cast(elapsed_ns, data);
-    scenegraph::PointCloud cloud;
-    cloud.stamp = {stage_.start_ns + elapsed_ns};
-    cloud.frame_id = "lidar_link";
-    cloud.width = points_;
-    cloud.point_step = kPointStep;
-    cloud.row_step = static_cast<std::uint32_t>(data.size());
-    cloud.fields = {{"x", 0, FieldType::Float32},    {"y", 4, FieldType::Float32},
-                    {"z", 8, FieldType::Float32},    {"intensity", 12, FieldType::Float32},
-                    {"ring", 16, FieldType::Uint16}, {"time", 18, FieldType::Float32}};
-    cloud.data.bytes = data;
-    return serializePointCloud2(cloud);
+    std::vector<std::byte> data;
+    return serializePointCloud2(lidar_.scan(stage_, elapsed_ns, data));
   }
 
  private:
-  void cast(std::int64_t elapsed_ns, std::span<std::byte> data) const {
-    const tf::RigidTransform map_from_lidar = toRigid(stage_.robot.truth(elapsed_ns)) * baseFromLidar();
-    const RayCaster caster(stage_.world, static_cast<double>(elapsed_ns) * 1e-9, map_from_lidar.translation);
-    const double yaw = 2.0 * std::atan2(map_from_lidar.rotation.z, map_from_lidar.rotation.w);
-    const double c = std::cos(yaw);
-    const double s = std::sin(yaw);
-    Random random(stage_.seed ^ static_cast<std::uint64_t>(elapsed_ns + 1) * 0xD1342543DE82EF95ULL);
-
-    const std::uint32_t columns = (points_ + kRings - 1) / kRings;
-    double cos_azimuth = 1.0;  // in the sensor's frame
-    double sin_azimuth = 0.0;
-    for (std::uint32_t i = 0; i < points_; ++i) {
-      const std::uint32_t ring = i % kRings;
-      const std::uint32_t column = i / kRings;
-      const double turn = static_cast<double>(column) / columns;
-      if (ring == 0) {
-        const double azimuth = 2.0 * std::numbers::pi * (0.5 - turn);  // clockwise, from behind
-        cos_azimuth = std::cos(azimuth);
-        sin_azimuth = std::sin(azimuth);
-      }
-      const glm::dvec3 direction{cosines_[ring] * cos_azimuth, cosines_[ring] * sin_azimuth, sines_[ring]};
-      const glm::dvec3 direction_in_map{c * direction.x - s * direction.y, s * direction.x + c * direction.y,
-                                        direction.z};
-      const Hit hit = caster.cast(direction_in_map, kMaxRange_m).value_or(Hit{.range_m = kMaxRange_m});
-      const double range = std::max(0.1, hit.range_m + kRangeNoise_m * random.gaussian());
-      const double incidence = std::abs(glm::dot(direction_in_map, hit.normal_in_map));
-      const double reflected = appearance(hit.material).reflectivity * (0.25 + 0.75 * incidence);
-      const double intensity = std::clamp(255.0 * reflected + 4.0 * random.gaussian(), 0.0, 255.0);
-
-      std::byte* const point = data.data() + std::size_t{i} * kPointStep;
-      const std::array<float, 4> values{static_cast<float>(range * direction.x),
-                                        static_cast<float>(range * direction.y),
-                                        static_cast<float>(range * direction.z), static_cast<float>(intensity)};
-      const auto ring_id = static_cast<std::uint16_t>(ring);
-      const auto time = static_cast<float>(0.1 * (turn - 1.0));  // seconds relative to the stamp
-      std::memcpy(point, values.data(), sizeof values);
-      std::memcpy(point + 16, &ring_id, sizeof ring_id);
-      std::memcpy(point + 18, &time, sizeof time);
-    }
-  }
-
   Stage stage_;
-  std::uint32_t points_;
-  std::array<double, kRings> sines_{};
-  std::array<double, kRings> cosines_{};
+  Lidar lidar_;
 };
 
 }  // namespace
 
 std::unique_ptr<Topic> makeLidar(const Stage& stage, std::uint32_t points) {
-  return std::make_unique<Lidar>(stage, points);
+  return std::make_unique<LidarPoints>(stage, points);
 }
 
 }  // namespace stillframe::sample

@@ -1,12 +1,10 @@
 #include "tools/sample/ros2_messages.h"
 
 #include "tools/ingest/cdr_writer.h"
+#include "tools/sample/definition_text.h"
 
 namespace stillframe::sample {
 namespace {
-
-// The separator is eighty '=' as rosbag2 writes it.
-#define STILLFRAME_SEPARATOR "================================================================================\n"
 
 constexpr std::string_view kTfMessage =
     "geometry_msgs/TransformStamped[] transforms\n" STILLFRAME_SEPARATOR
@@ -105,7 +103,6 @@ constexpr std::string_view kPointCloud2 =
     "\n"
     "# The nanoseconds component, valid in the range [0, 10e9).\n"
     "uint32 nanosec\n";
-#undef STILLFRAME_SEPARATOR
 
 }  // namespace
 

@@ -21,8 +21,8 @@ struct SampleReport {
 };
 
 /// Writes the synthetic recording: a differential-drive robot in a small warehouse, with transforms, a spinning lidar
-/// and a coloured depth camera, as a ROS 2 MCAP. The same options give the same file, byte for byte. Takes about 0.1 s
-/// per second of it at the default size; memory is one cloud and one chunk.
+/// (raw and compressed), cameras, a scanner and maps, as a ROS 2 MCAP. The same options give the same file, byte for
+/// byte. Takes about 0.2 s per second of it at the default size; memory is one cloud and one chunk.
 [[nodiscard]] std::expected<SampleReport, scenegraph::Status> writeSample(const std::filesystem::path& path,
                                                                           const SampleOptions& options);
 

@@ -1,20 +1,10 @@
 #include "tools/sample/scan_messages.h"
 
 #include "tools/ingest/cdr_writer.h"
+#include "tools/sample/definition_text.h"
 
 namespace stillframe::sample {
 namespace {
-
-// The separator is eighty '=' as rosbag2 writes it.
-#define STILLFRAME_SEPARATOR "================================================================================\n"
-#define STILLFRAME_HEADER                  \
-  STILLFRAME_SEPARATOR                     \
-  "MSG: std_msgs/Header\n"                 \
-  "builtin_interfaces/Time stamp\n"        \
-  "string frame_id\n" STILLFRAME_SEPARATOR \
-  "MSG: builtin_interfaces/Time\n"         \
-  "int32 sec\n"                            \
-  "uint32 nanosec\n"
 
 constexpr std::string_view kLaserScan =
     "std_msgs/Header header # timestamp in the header is the acquisition time of the first ray in the scan\n"
@@ -40,19 +30,7 @@ constexpr std::string_view kGridMap =
     "float64 resolution\n"
     "float64 length_x\n"
     "float64 length_y\n"
-    "geometry_msgs/Pose pose\n" STILLFRAME_SEPARATOR
-    "MSG: geometry_msgs/Pose\n"
-    "Point position\n"
-    "Quaternion orientation\n" STILLFRAME_SEPARATOR
-    "MSG: geometry_msgs/Point\n"
-    "float64 x\n"
-    "float64 y\n"
-    "float64 z\n" STILLFRAME_SEPARATOR
-    "MSG: geometry_msgs/Quaternion\n"
-    "float64 x 0\n"
-    "float64 y 0\n"
-    "float64 z 0\n"
-    "float64 w 1\n" STILLFRAME_SEPARATOR
+    "geometry_msgs/Pose pose\n" STILLFRAME_POSE STILLFRAME_SEPARATOR
     "MSG: std_msgs/Float32MultiArray\n"
     "std_msgs/MultiArrayLayout layout\n"
     "float32[] data\n" STILLFRAME_SEPARATOR
@@ -63,8 +41,6 @@ constexpr std::string_view kGridMap =
     "string label\n"
     "uint32 size\n"
     "uint32 stride\n" STILLFRAME_HEADER;
-#undef STILLFRAME_HEADER
-#undef STILLFRAME_SEPARATOR
 
 template <typename Values>
 void floats(ingest::CdrWriter& cdr, const Values& values) {

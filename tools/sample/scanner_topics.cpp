@@ -68,33 +68,8 @@ class Scanner final : public Topic {
   Stage stage_;
 };
 
-/// The highest surface over (x, y), as a lidar from above would map it: its height and what it is made of.
-struct Top {
-  double height_m = 0.0;
-  Material material = Material::Floor;
-};
-
-Top topAt(const World& world, double x, double y) {
-  Top top;
-  for (const Solid& solid : world.solids()) {
-    const double c = std::cos(solid.yaw_rad);
-    const double s = std::sin(solid.yaw_rad);
-    const double dx = x - solid.centre.x;
-    const double dy = y - solid.centre.y;
-    const glm::dvec2 local{c * dx + s * dy, c * dy - s * dx};
-    const bool is_inside = solid.shape == Solid::Shape::Cylinder
-                               ? glm::length(local) <= solid.half.x
-                               : std::abs(local.x) <= solid.half.x && std::abs(local.y) <= solid.half.y;
-    const double slope = solid.shape == Solid::Shape::Wedge ? local.x / solid.half.x : 1.0;
-    if (const double height_m = solid.centre.z + slope * solid.half.z; is_inside && height_m > top.height_m) {
-      top = {height_m, solid.material};
-    }
-  }
-  return top;
-}
-
-/// What stands in the warehouse, once, as a map of heights: no data where it reaches above 3 m. A second layer is the
-/// reflectivity of the top.
+/// What stands in the greater half of the warehouse, once, as a map of heights: no data west of x = -2 m and where it
+/// reaches above 3 m. A second layer is the reflectivity of the top.
 class HeightMap final : public Topic {
  public:
   explicit HeightMap(const Stage& stage) : stage_(stage) {}
@@ -107,6 +82,7 @@ class HeightMap final : public Topic {
     constexpr std::uint32_t kColumns = 90;
     constexpr double kCell_m = 0.2;
     constexpr double kHighest_m = 3.0;
+    constexpr double kWest_m = -2.0;
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     MapMessage map{.stamp_ns = stage_.start_ns + elapsed_ns,
                    .frame_id = "map",
@@ -116,9 +92,10 @@ class HeightMap final : public Topic {
                    .layers = {{"elevation", {}}, {"reflectivity", {}}}};
     for (std::uint32_t column = 0; column < kColumns; ++column) {
       for (std::uint32_t row = 0; row < kRows; ++row) {
-        const Top top =
-            topAt(stage_.world, (0.5 * kRows - 0.5 - row) * kCell_m, (0.5 * kColumns - 0.5 - column) * kCell_m);
-        const bool is_known = top.height_m <= kHighest_m;
+        const double x = (0.5 * kRows - 0.5 - row) * kCell_m;
+        const double y = (0.5 * kColumns - 0.5 - column) * kCell_m;
+        const Top top = stage_.world.topAt(x, y);
+        const bool is_known = top.height_m <= kHighest_m && x > kWest_m;
         map.layers[0].values.push_back(is_known ? static_cast<float>(top.height_m) : kNan);
         map.layers[1].values.push_back(is_known ? appearance(top.material).reflectivity : kNan);
       }

@@ -37,12 +37,20 @@ class Topic {
 [[nodiscard]] std::unique_ptr<Topic> makeLocalisationTransforms(const Stage& stage);
 [[nodiscard]] std::unique_ptr<Topic> makeLidar(const Stage& stage, std::uint32_t points);
 [[nodiscard]] std::unique_ptr<Topic> makeDepthCamera(const Stage& stage);
+/// `format`: "cloudini" or "draco"; `points` of the lidar itself.
+[[nodiscard]] std::unique_ptr<Topic> makeCompressedLidar(const Stage& stage, std::uint32_t points,
+                                                         std::string_view format);
+[[nodiscard]] std::unique_ptr<Topic> makeDepthImages(const Stage& stage);
+[[nodiscard]] std::unique_ptr<Topic> makeDepthCameraInfo(const Stage& stage);
+[[nodiscard]] std::unique_ptr<Topic> makeMap(const Stage& stage);
+[[nodiscard]] std::unique_ptr<Topic> makeMapUpdates(const Stage& stage);
 [[nodiscard]] std::unique_ptr<Topic> makeScanner(const Stage& stage);
 [[nodiscard]] std::unique_ptr<Topic> makeHeightMap(const Stage& stage);
 
 /// Where the sensors are mounted: /tf_static says the same.
 [[nodiscard]] tf::RigidTransform baseFromLidar();
 [[nodiscard]] tf::RigidTransform baseFromCamera();
+[[nodiscard]] tf::RigidTransform baseFromRearCamera();
 [[nodiscard]] tf::RigidTransform baseFromScanner();
 /// The optical frame looks along +z with x right and y down.
 [[nodiscard]] tf::RigidTransform cameraFromOptical();

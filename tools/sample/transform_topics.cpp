@@ -26,6 +26,8 @@ class StaticTransforms final : public Topic {
         FrameTransform{stamp, "base_link", "lidar_link", baseFromLidar()},
         FrameTransform{stamp, "base_link", "camera_link", baseFromCamera()},
         FrameTransform{stamp, "camera_link", "camera_optical_frame", cameraFromOptical()},
+        FrameTransform{stamp, "base_link", "rear_camera_link", baseFromRearCamera()},
+        FrameTransform{stamp, "rear_camera_link", "rear_camera_optical_frame", cameraFromOptical()},
         FrameTransform{stamp, "base_link", "scan_link", baseFromScanner()},
     };
     return serializeTfMessage(transforms);
@@ -83,6 +85,11 @@ tf::RigidTransform baseFromScanner() { return {{1.0, 0.0, 0.0, 0.0}, {0.3, 0.0, 
 tf::RigidTransform baseFromCamera() {
   constexpr double kPitchDown = 0.09;
   return {{std::cos(0.5 * kPitchDown), 0.0, std::sin(0.5 * kPitchDown), 0.0}, {0.32, 0.0, 0.6}};
+}
+
+tf::RigidTransform baseFromRearCamera() {
+  constexpr double kPitchDown = 0.2;  // after half a turn about z
+  return {{0.0, -std::sin(0.5 * kPitchDown), 0.0, std::cos(0.5 * kPitchDown)}, {-0.32, 0.0, 0.7}};
 }
 
 tf::RigidTransform cameraFromOptical() { return {{0.5, -0.5, 0.5, -0.5}, {0.0, 0.0, 0.0}}; }

@@ -1,14 +1,16 @@
 #include "tools/sample/world.h"
 
+#include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "tools/sample/random.h"
 
 namespace stillframe::sample {
 namespace {
 
-constexpr double kHalfLength = 15.0;
-constexpr double kHalfWidth = 10.0;
+constexpr double kHalfLength = World::kHalfLength_m;
+constexpr double kHalfWidth = World::kHalfWidth_m;
 constexpr double kWallHeight = 7.0;
 
 Solid box(Material material, const glm::dvec3& centre, const glm::dvec3& half, double yaw_rad = 0.0,
@@ -119,6 +121,34 @@ World::World(std::uint64_t seed) {
                                    {7.5, -0.9}}) {
     addStack(solids_, random, centre + glm::dvec2{random.uniform(-0.25, 0.25), random.uniform(-0.25, 0.25)});
   }
+}
+
+std::optional<double> heightOver(const Solid& solid, double x, double y) {
+  const double dx = x - solid.centre.x;
+  const double dy = y - solid.centre.y;
+  if (dx * dx + dy * dy > solid.half.x * solid.half.x + solid.half.y * solid.half.y) {
+    return std::nullopt;  // most solids, without a sine
+  }
+  const double c = std::cos(solid.yaw_rad);
+  const double s = std::sin(solid.yaw_rad);
+  const glm::dvec2 local{c * dx + s * dy, c * dy - s * dx};
+  const bool is_inside = solid.shape == Solid::Shape::Cylinder
+                             ? glm::length(local) <= solid.half.x
+                             : std::abs(local.x) <= solid.half.x && std::abs(local.y) <= solid.half.y;
+  if (!is_inside) {
+    return std::nullopt;
+  }
+  return solid.centre.z + (solid.shape == Solid::Shape::Wedge ? local.x / solid.half.x : 1.0) * solid.half.z;
+}
+
+Top World::topAt(double x, double y) const {
+  Top top;
+  for (const Solid& solid : solids_) {
+    if (const auto height_m = heightOver(solid, x, y); height_m && *height_m > top.height_m) {
+      top = {*height_m, solid.material};
+    }
+  }
+  return top;
 }
 
 Solid World::vehicle(double seconds) {

@@ -30,6 +30,9 @@ struct Solid {
   float tint = 1.0F;  ///< brightness of this one among its kind
 };
 
+/// Height of the solid's top over (x, y) in the map; nullopt where it does not stand.
+[[nodiscard]] std::optional<double> heightOver(const Solid& solid, double x, double y);
+
 /// Where a ray meets the world.
 struct Hit {
   double range_m = 0.0;
@@ -38,12 +41,22 @@ struct Hit {
   float tint = 1.0F;
 };
 
+/// The highest surface over a place, as a lidar from above would map it.
+struct Top {
+  double height_m = 0.0;
+  Material material = Material::Floor;
+};
+
 /// A small warehouse, 30 m x 20 m, walls 7 m high: racks with cartons, pillars, a ramp and one vehicle that drives to
 /// and fro. The floor is z = 0 and everything is closed in, so that a level lidar's every beam returns. Immutable.
 class World {
  public:
   explicit World(std::uint64_t seed);
   [[nodiscard]] std::span<const Solid> solids() const noexcept { return solids_; }
+  /// Of what does not move, over (x, y) in the map.
+  [[nodiscard]] Top topAt(double x, double y) const;
+  static constexpr double kHalfLength_m = 15.0;  ///< inside the walls, along x
+  static constexpr double kHalfWidth_m = 10.0;   ///< along y
   /// The moving vehicle at `seconds` from the start.
   [[nodiscard]] static Solid vehicle(double seconds);
 

@@ -38,7 +38,10 @@ TEST(RenderCommand, DrawsTheSampleAndSaysWhat) {
   EXPECT_GT(said["frame_ms"].get<double>(), 0.0);
   EXPECT_EQ(said["passes"][0], "scene");
   const auto layers = byTopic(said);
-  ASSERT_EQ(layers.size(), 6U) << said;
+  ASSERT_GE(layers.size(), 10U) << said;
+  for (const auto& [topic, layer] : layers) {  // the sample is without a fault: nothing worse than a note
+    EXPECT_TRUE(layer["status"]["level"] == "ok" || layer["status"]["level"] == "info") << layer;
+  }
   const auto& lidar = layers.at("/lidar/points");
   EXPECT_EQ(lidar["frame"], "lidar_link");
   EXPECT_EQ(lidar["visible"], true);

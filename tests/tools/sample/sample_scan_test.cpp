@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "nodes/grid_map/map_cells.h"
@@ -13,48 +11,15 @@
 #include "nodes/laser_scan/sensor_motion.h"
 #include "scenegraph/objects/grid_map.h"
 #include "scenegraph/objects/laser_scan.h"
-#include "tools/ingest/recording.h"
+#include "tests/tools/sample/recorded_sample.h"
 #include "tools/sample/robot.h"
-#include "tools/sample/sample.h"
 #include "tools/sample/topic.h"
 
 namespace stillframe::sample {
 namespace {
 
-constexpr SampleOptions kOptions{.duration_ns = 8'000'000'000, .lidar_points = 100, .seed = 1};
-
-class SampleScan : public testing::Test {
- protected:
-  SampleScan()
-      : path_(std::filesystem::path(testing::TempDir()) /
-              (std::string("stillframe_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".mcap")) {
-    EXPECT_TRUE(writeSample(path_, kOptions));
-    const std::vector<std::filesystem::path> files{path_};
-    auto recording = ingest::Recording::open(files);
-    EXPECT_TRUE(recording);
-    recording_ = std::move(*recording);
-    recording_->load();
-    recording_->dataset()->takeTransforms();
-  }
-  ~SampleScan() override { std::filesystem::remove(path_); }
-
-  /// All messages of a topic.
-  template <typename T>
-  std::vector<std::shared_ptr<const T>> messages(const char* topic) const {
-    const scenegraph::ObjectStore& store = recording_->dataset()->store();
-    std::vector<std::shared_ptr<const T>> result;
-    const auto id = store.findTopic(topic, T::kType);
-    for (std::size_t i = 0; id && i < store.entryCount(*id); ++i) {
-      const auto object = store.decode(*id, *store.at(*id, i));
-      EXPECT_TRUE(object);
-      result.push_back(object->template get<T>());
-    }
-    return result;
-  }
-
-  std::filesystem::path path_;
-  std::shared_ptr<ingest::Recording> recording_;
-};
+constexpr SampleOptions kOptions = RecordedSample::kOptions;
+using SampleScan = RecordedSample;
 
 /// How far nine of ten points before the two free walls lie off them at most, in metres (the tenth may be the edge of
 /// something that stands there); nullopt when hardly any are seen.

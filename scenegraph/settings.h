@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -73,6 +74,10 @@ class SettingsTable {
     Member member;
   };
   SettingsTable(std::initializer_list<Row> rows) : rows_(rows) {}
+  /// These rows and those of `more`, whose settings are ours too (a base of S, or S itself).
+  template <typename Base>
+    requires std::is_base_of_v<Base, S>
+  [[nodiscard]] SettingsTable with(const SettingsTable<Base>& more) const;
 
   [[nodiscard]] std::vector<SettingSpec> specs() const;
   [[nodiscard]] SettingTexts texts(const S& settings) const;
@@ -80,6 +85,8 @@ class SettingsTable {
   std::expected<void, SettingError> apply(const SettingTexts& texts, S& settings) const;
 
  private:
+  template <typename Other>
+  friend class SettingsTable;
   // Not inlined: GCC 12 would warn (-Warray-bounds) of member types that S does not have.
   [[gnu::noinline]] static void assign(S& settings, const Member& member, const SettingValue& value);
 
@@ -102,6 +109,20 @@ void SettingsTable<S>::assign(S& settings, const Member& member, const SettingVa
         settings.*pointer = std::get<Value>(value);
       },
       member);
+}
+
+template <typename S>
+template <typename Base>
+  requires std::is_base_of_v<Base, S>
+SettingsTable<S> SettingsTable<S>::with(const SettingsTable<Base>& more) const {
+  SettingsTable all = *this;
+  for (const auto& row : more.rows_) {
+    all.rows_.push_back(
+        {row.spec,
+         std::visit([]<typename Value>(Value Base::* member) { return Member(static_cast<Value S::*>(member)); },
+                    row.member)});
+  }
+  return all;
 }
 
 template <typename S>

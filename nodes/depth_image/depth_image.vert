@@ -1,27 +1,16 @@
 #version 450 compatibility
 #include "common.glsl"
+#include "coloring.glsl"
 // Pixels of a depth image as points. In: gl_Vertex, the pixel's ray in the optical frame (x, y, 1; z = 0: none), in units
-// of 1 / u_unit metres;
-// a_depth, metres along the axis, below zero for a hole; gl_Color, sRGB bytes of the pixel. Uniforms: colours
-// sRGB-encoded; u_value maps a_depth to 0..1 over the range.
+// of 1 / u_unit metres; a_depth, metres along the axis, below zero for a hole; gl_Color, sRGB bytes of the pixel.
 const int kRgb = 1;
 const int kDepth = 2;
 
 layout(location = 6) in float a_depth;
-uniform int u_color_mode;
-uniform vec2 u_value;
-uniform vec3 u_colormap[33];
-uniform vec3 u_flat_color;
 uniform float u_point_size;
 uniform float u_max_depth;
 uniform float u_unit;
 flat out vec4 v_color;
-
-vec3 mapped(float t) {
-  float x = clamp(t, 0.0, 1.0) * 32.0;
-  int below = min(int(x), 31);
-  return mix(u_colormap[below], u_colormap[below + 1], x - float(below));
-}
 
 void main() {
   bool is_drawn = a_depth > 0.0 && a_depth <= u_max_depth && gl_Vertex.z > 0.0;
@@ -33,7 +22,7 @@ void main() {
   if (u_color_mode == kRgb) {
     color = gl_Color.rgb;
   } else if (u_color_mode == kDepth) {
-    color = mapped(a_depth * u_value.x + u_value.y);
+    color = sfValueColor(a_depth);
   }
   v_color = sfOutput(vec4(color, 1.0));
 }

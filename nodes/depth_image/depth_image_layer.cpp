@@ -227,18 +227,14 @@ ValueRange DepthImageLayer::Percentiles::of(const std::shared_ptr<const DepthFra
 }
 
 void DepthImageLayer::paint() {
-  ValueRange range{settings_.range_min, settings_.range_max};
-  if (settings_.range_mode == "auto") {
-    range = {reference_->nearest_m, reference_->farthest_m};
-  } else if (settings_.range_mode == "percentile") {
-    range = percentiles_.of(reference_, settings_.percentile_low, settings_.percentile_high);
-  }
-  RangeMap map = mapRange(range);
-  if (settings_.reverse_colormap) {
-    map = {-map.scale, 1.0 - map.bias};
-  }
+  const ValueRange range =
+      settings_.range([&] { return ValueRange{reference_->nearest_m, reference_->farthest_m}; },
+                      [&](double low, double high) { return percentiles_.of(reference_, low, high); });
   const bool is_flat = settings_.color_mode == "flat";
-  state_.setColor(is_flat ? DepthColor::Flat : shown_.colors != nullptr ? DepthColor::Rgb : DepthColor::Depth, map);
+  state_.setColor(is_flat                    ? DepthColor::Flat
+                  : shown_.colors != nullptr ? DepthColor::Rgb
+                                             : DepthColor::Depth,
+                  settings_.map(range));
 }
 
 Status DepthImageLayer::judge(const Placement& placement) const {

@@ -2,20 +2,16 @@
 
 #include <string>
 
+#include "nodes/coloring.h"
 #include "scenegraph/settings.h"
 
 namespace stillframe::nodes {
 
 /// How a depth image is drawn. Only rectify and info_topic change the geometry.
-struct DepthImageSettings {
+struct DepthImageSettings : ValueColoring {
+  DepthImageSettings() { range_max = 10.0; }
+
   std::string color_mode = "depth";
-  std::string colormap = "turbo";
-  bool reverse_colormap = false;
-  std::string range_mode = "auto";
-  double range_min = 0.0;
-  double range_max = 10.0;
-  double percentile_low = 1.0;
-  double percentile_high = 99.0;
   double point_size = 2.0;
   scenegraph::Color flat_color{.r = 217 / 255.0F, .g = 222 / 255.0F, .b = 230 / 255.0F, .a = 1.0F};
   double max_depth_m = 0.0;

@@ -5,6 +5,7 @@
 #include <osg/Uniform>
 #include <osg/ref_ptr>
 
+#include "nodes/coloring_state.h"
 #include "nodes/depth_image/depth_image_settings.h"
 #include "nodes/points/value_range.h"
 
@@ -30,10 +31,7 @@ class DepthState {
 
  private:
   osg::ref_ptr<osg::StateSet> state_;
-  osg::ref_ptr<osg::Uniform> mode_;
-  osg::ref_ptr<osg::Uniform> value_;
-  osg::ref_ptr<osg::Uniform> colormap_;
-  osg::ref_ptr<osg::Uniform> flat_color_;
+  ColoringState coloring_;
   osg::ref_ptr<osg::Uniform> point_size_;
   osg::ref_ptr<osg::Uniform> max_depth_;
   osg::ref_ptr<osg::Uniform> unit_;

@@ -213,21 +213,15 @@ void GridMapLayer::paint() {
   } else if (const MapLayer* const layer =
                  choice_->mode == MapColorMode::Value ? product_->layer(choice_->color) : nullptr) {
     texture = layer->texture;
-    ValueRange range{settings_.range_min, settings_.range_max};
-    if (settings_.range_mode != "manual") {
-      const MapLayer* held = reference_->layer(choice_->color);
-      const bool is_held = held != nullptr && held->limits.finite > 0;
-      held = is_held ? held : layer;
-      range = {held->limits.low, held->limits.high};
-      if (settings_.range_mode == "percentile") {
-        range = (is_held ? *reference_ : *product_)
-                    .percentiles(choice_->color, settings_.percentile_low, settings_.percentile_high);
-      }
-    }
-    map = mapRange(range, layer->limits.offset);
-    if (settings_.reverse_colormap) {
-      map = {-map.scale, 1.0 - map.bias};
-    }
+    const MapLayer* const of_reference = settings_.range_mode == "manual" ? nullptr : reference_->layer(choice_->color);
+    const bool is_held = of_reference != nullptr && of_reference->limits.finite > 0;
+    const ChannelValues& limits = is_held ? of_reference->limits : layer->limits;
+    const ValueRange range =
+        settings_.range([&] { return ValueRange{limits.low, limits.high}; },
+                        [&](double low, double high) {
+                          return (is_held ? *reference_ : *product_).percentiles(choice_->color, low, high);
+                        });
+    map = settings_.map(range, layer->limits.offset);
   }
   if (applied_ != settings_) {
     state_.apply(settings_, !choice_->height.empty(), choice_->mode == MapColorMode::Rgb && product_->cells().alpha);

@@ -2,22 +2,16 @@
 
 #include <string>
 
+#include "nodes/coloring.h"
 #include "scenegraph/settings.h"
 
 namespace stillframe::nodes {
 
 /// How a grid map is drawn.
-struct GridMapSettings {
+struct GridMapSettings : ValueColoring {
   std::string height_field = "auto";
   bool flat = false;
   std::string color_field = "auto";
-  std::string colormap = "turbo";
-  bool reverse_colormap = false;
-  std::string range_mode = "auto";
-  double range_min = 0.0;
-  double range_max = 1.0;
-  double percentile_low = 1.0;
-  double percentile_high = 99.0;
   bool shading = true;
   double opacity = 1.0;
   scenegraph::Color flat_color{.r = 217 / 255.0F, .g = 222 / 255.0F, .b = 230 / 255.0F, .a = 1.0F};

@@ -7,6 +7,7 @@
 #include <osg/Uniform>
 #include <osg/ref_ptr>
 
+#include "nodes/coloring_state.h"
 #include "nodes/grid_map/grid_map_settings.h"
 #include "nodes/points/value_range.h"
 
@@ -32,13 +33,9 @@ class GridMapState {
 
  private:
   osg::ref_ptr<osg::StateSet> state_;
-  osg::ref_ptr<osg::Uniform> mode_;
+  ColoringState coloring_;
   osg::ref_ptr<osg::Uniform> cell_size_;
   osg::ref_ptr<osg::Uniform> cell_count_;
-  osg::ref_ptr<osg::Uniform> value_;
-  osg::ref_ptr<osg::Uniform> colormap_;
-  osg::ref_ptr<osg::Uniform> flat_color_;
-  osg::ref_ptr<osg::Uniform> missing_color_;
   osg::ref_ptr<osg::Uniform> missing_is_hole_;
   osg::ref_ptr<osg::Uniform> shading_;
   osg::ref_ptr<osg::Uniform> opacity_;

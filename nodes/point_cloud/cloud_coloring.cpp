@@ -54,44 +54,49 @@ ColorChoice chooseColor(const std::string& color_field, const CloudPoints& refer
 
 ValueRange channelRange(const PointCloudSettings& settings, const std::string& channel, const CloudPoints& reference,
                         const CloudPoints& cloud) {
-  if (settings.range_mode == "manual") {
-    return {settings.range_min, settings.range_max};
-  }
-  for (const CloudPoints* from : {&reference, &cloud}) {
-    const CloudChannel* const values = from->channel(channel);
-    if (values == nullptr || values->limits.finite == 0) {
-      continue;
+  const auto held = [&]() -> const CloudPoints* {
+    for (const CloudPoints* from : {&reference, &cloud}) {
+      if (const CloudChannel* const values = from->channel(channel); values != nullptr && values->limits.finite > 0) {
+        return from;
+      }
     }
-    if (settings.range_mode == "percentile") {
-      return from->channelPercentiles(channel, settings.percentile_low, settings.percentile_high);
-    }
-    return {values->limits.low, values->limits.high};
-  }
-  return {0.0, 0.0};
+    return nullptr;
+  };
+  return settings.range(
+      [&] {
+        const CloudPoints* const from = held();
+        return from == nullptr ? ValueRange{0.0, 0.0}
+                               : ValueRange{from->channel(channel)->limits.low, from->channel(channel)->limits.high};
+      },
+      [&](double low, double high) {
+        const CloudPoints* const from = held();
+        return from == nullptr ? ValueRange{0.0, 0.0} : from->channelPercentiles(channel, low, high);
+      });
 }
 
 ValueRange axisRange(const PointCloudSettings& settings, int axis, const CloudPoints& cloud,
                      const tf::RigidTransform& fixed_from_points) {
-  if (settings.range_mode == "manual") {
-    return {settings.range_min, settings.range_max};
-  }
-  glm::dvec3 low = cloud.converted().box_min;
-  glm::dvec3 high = cloud.converted().box_max;
-  if (settings.range_mode == "percentile") {
+  // The extent of the eight moved corners of a box, without making them.
+  const auto extentOf = [&](const glm::dvec3& low, const glm::dvec3& high) -> ValueRange {
+    const glm::dmat4 matrix = tf::toMatrix(fixed_from_points);
+    const double centre = tf::transformPoint(fixed_from_points, low / 2.0 + high / 2.0)[axis];
+    double extent = 0.0;
     for (int i = 0; i < 3; ++i) {
-      const ValueRange range = cloud.axisPercentiles(i, settings.percentile_low, settings.percentile_high);
-      low[i] = range.low;
-      high[i] = range.high;
+      extent += std::abs(matrix[i][axis]) * (high[i] / 2 - low[i] / 2);
     }
-  }
-  // The extent of the eight moved corners, without making them.
-  const glm::dmat4 matrix = tf::toMatrix(fixed_from_points);
-  const double centre = tf::transformPoint(fixed_from_points, low / 2.0 + high / 2.0)[axis];
-  double extent = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    extent += std::abs(matrix[i][axis]) * (high[i] / 2 - low[i] / 2);
-  }
-  return {centre - extent, centre + extent};
+    return {centre - extent, centre + extent};
+  };
+  return settings.range([&] { return extentOf(cloud.converted().box_min, cloud.converted().box_max); },
+                        [&](double low_percent, double high_percent) {
+                          glm::dvec3 low;
+                          glm::dvec3 high;
+                          for (int i = 0; i < 3; ++i) {
+                            const ValueRange range = cloud.axisPercentiles(i, low_percent, high_percent);
+                            low[i] = range.low;
+                            high[i] = range.high;
+                          }
+                          return extentOf(low, high);
+                        });
 }
 
 }  // namespace stillframe::nodes

@@ -4,8 +4,8 @@
 #include <osg/Uniform>
 #include <osg/Vec4d>
 #include <osg/ref_ptr>
-#include <string>
 
+#include "nodes/coloring_state.h"
 #include "nodes/point_cloud/cloud_coloring.h"
 #include "nodes/point_cloud/point_cloud_settings.h"
 #include "nodes/points/value_range.h"
@@ -22,22 +22,15 @@ class CloudState {
   [[nodiscard]] osg::StateSet* stateSet() const noexcept { return state_.get(); }
 
   void apply(const PointCloudSettings& settings);
-  void setMode(ColorMode mode);
   /// t = value * scale + bias of the array's values.
-  void setValueMap(const RangeMap& map);
+  void setMode(ColorMode mode, const RangeMap& map);
   /// t = dot(coefficients.xyz, vertex) + coefficients.w.
   void setAxisMap(const osg::Vec4d& coefficients);
 
  private:
-  void setColormap(const std::string& name);
-
   osg::ref_ptr<osg::StateSet> state_;
-  osg::ref_ptr<osg::Uniform> mode_;
+  ColoringState coloring_;
   osg::ref_ptr<osg::Uniform> axis_;
-  osg::ref_ptr<osg::Uniform> value_;
-  osg::ref_ptr<osg::Uniform> colormap_;
-  osg::ref_ptr<osg::Uniform> flat_color_;
-  osg::ref_ptr<osg::Uniform> missing_color_;
   osg::ref_ptr<osg::Uniform> opacity_;
   osg::ref_ptr<osg::Uniform> point_size_;
   osg::ref_ptr<osg::Uniform> size_in_metres_;

@@ -194,26 +194,22 @@ void PointCloudLayer::paint(const std::optional<tf::RigidTransform>& fixed_from_
     choice_ = choice;
     setColorArrays();
   }
-  state_.setMode(choice_.mode);
-  const auto directed = [&](RangeMap map) {
-    return settings_.reverse_colormap ? RangeMap{-map.scale, 1.0 - map.bias} : map;
-  };
   // What the mode does not use is set all the same: the state must not tell where it came from.
   RangeMap value_map;
   osg::Vec4d axis_map;
   if (choice_.mode == ColorMode::Value) {
     const ValueRange range = channelRange(settings_, choice_.channel, *reference_, *product_);
-    value_map = directed(mapRange(range, product_->channel(choice_.channel)->limits.offset));
+    value_map = settings_.map(range, product_->channel(choice_.channel)->limits.offset);
   } else if (choice_.mode == ColorMode::Axis && fixed_from_points) {
     // The vertex is relative to the cloud's origin; where that lies along the axis is taken off the range in double.
     const ValueRange range = axisRange(settings_, choice_.axis, *product_, *fixed_from_points);
     const glm::dmat4 matrix = tf::toMatrix(*fixed_from_points);
     const double origin = tf::transformPoint(*fixed_from_points, product_->converted().origin)[choice_.axis];
-    const RangeMap map = directed(mapRange(range, origin));
+    const RangeMap map = settings_.map(range, origin);
     axis_map = {matrix[0][choice_.axis] * map.scale, matrix[1][choice_.axis] * map.scale,
                 matrix[2][choice_.axis] * map.scale, map.bias};
   }
-  state_.setValueMap(value_map);
+  state_.setMode(choice_.mode, value_map);
   state_.setAxisMap(axis_map);
 }
 

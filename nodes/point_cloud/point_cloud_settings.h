@@ -2,20 +2,14 @@
 
 #include <string>
 
+#include "nodes/coloring.h"
 #include "scenegraph/settings.h"
 
 namespace stillframe::nodes {
 
 /// How a cloud is drawn. None of it changes a vertex.
-struct PointCloudSettings {
+struct PointCloudSettings : ValueColoring {
   std::string color_field = "auto";
-  std::string colormap = "turbo";
-  bool reverse_colormap = false;
-  std::string range_mode = "auto";
-  double range_min = 0.0;
-  double range_max = 1.0;
-  double percentile_low = 1.0;
-  double percentile_high = 99.0;
   double point_size = 2.0;
   std::string size_unit = "px";
   bool round_points = false;

@@ -101,5 +101,30 @@ TEST(NearNames, FindsTyposCaseAndParts) {
   EXPECT_EQ(quotedList(known, 2), "'map', 'base_link' and 3 more");
 }
 
+struct BaseSettings {
+  double far_m = 2.0;
+  std::string name = "base";
+};
+struct DerivedSettings : BaseSettings {
+  bool on = false;
+};
+
+TEST(SettingsTable, TakesTheRowsOfABaseInTheirPlace) {
+  const SettingsTable<BaseSettings> base{
+      {{.key = "far", .label = "", .help = "", .kind = SettingKind::Double}, &BaseSettings::far_m},
+      {{.key = "name", .label = "", .help = "", .kind = SettingKind::Text}, &BaseSettings::name}};
+  const SettingsTable<DerivedSettings> table = SettingsTable<DerivedSettings>{
+      {{.key = "on", .label = "", .help = "", .kind = SettingKind::Bool},
+       &DerivedSettings::on}}.with(base);
+  ASSERT_EQ(table.specs().size(), 3U);
+  EXPECT_EQ(table.specs()[1].key, "far");
+
+  DerivedSettings settings;
+  ASSERT_TRUE(table.apply({{"on", "true"}, {"far", "7"}, {"name", "x"}}, settings));
+  EXPECT_TRUE(settings.on);
+  EXPECT_EQ(settings.far_m, 7.0);
+  EXPECT_EQ(table.texts(settings), (SettingTexts{{"far", "7"}, {"name", "x"}, {"on", "true"}}));
+}
+
 }  // namespace
 }  // namespace stillframe::scenegraph

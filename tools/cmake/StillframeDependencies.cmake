@@ -8,6 +8,7 @@ pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(PROTOBUF REQUIRED IMPORTED_TARGET protobuf)
 pkg_check_modules(LZ4 REQUIRED IMPORTED_TARGET liblz4)
 find_package(ZLIB REQUIRED)
+find_package(TBB REQUIRED)
 # Draco's own package names its include folder without SYSTEM.
 pkg_check_modules(DRACO REQUIRED draco)
 add_library(stillframe_draco INTERFACE)

@@ -1,0 +1,274 @@
+#include "scenegraph/raster/point_raster.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <glm/vec4.hpp>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace stillframe::scenegraph {
+namespace {
+
+// Both ways compute bit for bit the same: AVX2 brings wider vectors, not fused operations. The thread sanitizer starts
+// too late for what the choice between them needs.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
+#define STILLFRAME_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define STILLFRAME_VECTOR_CLONES
+#endif
+
+constexpr std::size_t kBlock = 256;                     // points projected at a time: stays in the first cache
+constexpr std::size_t kPiece = std::size_t{64} * 1024;  // points a task
+constexpr std::int32_t kSubpixels = 256;
+constexpr float kMaxSizePx = 1024.0F;  // as in the shader of the points
+
+/// A batch in the numbers that the inner loop needs.
+struct Projection {
+  std::array<float, 16> clip_from_points{};  // column by column
+  float half_width = 0.0F;                   // in 1/256 of a pixel
+  float half_height = 0.0F;
+  float size = 1.0F;  // pixels, or pixels at w = 1
+  bool is_size_in_metres = false;
+  bool is_round = false;
+  bool is_one_pixel = false;
+  std::uint32_t first_number = 0;
+};
+
+/// Window coordinates in 1/256 of a pixel and depth of up to kBlock points; depth 0: not to be drawn.
+struct Block {
+  std::array<float, kBlock> x;
+  std::array<float, kBlock> y;
+  std::array<float, kBlock> z;
+  std::array<std::int32_t, kBlock> window_x;
+  std::array<std::int32_t, kBlock> window_y;
+  std::array<float, kBlock> depth;
+  std::array<float, kBlock> per_w;
+};
+
+STILLFRAME_VECTOR_CLONES
+void project(Block& block, std::size_t count, const Projection& projection) {
+  const std::array<float, 16> m = projection.clip_from_points;
+  const float half_width = projection.half_width;
+  const float half_height = projection.half_height;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float x = block.x[i];
+    const float y = block.y[i];
+    const float z = block.z[i];
+    const float clip_x = m[0] * x + m[4] * y + m[8] * z + m[12];
+    const float clip_y = m[1] * x + m[5] * y + m[9] * z + m[13];
+    const float clip_z = m[2] * x + m[6] * y + m[10] * z + m[14];
+    const float clip_w = m[3] * x + m[7] * y + m[11] * z + m[15];
+    // Not-a-number fails every comparison. Bitwise, so that no branch keeps the loop from being vectorised.
+    const bool is_inside = (clip_w > 0.0F) & (std::fabs(clip_x) <= clip_w) & (std::fabs(clip_y) <= clip_w) &
+                           (clip_z > 0.0F) & (clip_z <= clip_w);
+    const float per_w = 1.0F / clip_w;
+    const float window_x = is_inside ? clip_x * per_w * half_width + half_width : 0.0F;
+    const float window_y = is_inside ? clip_y * per_w * half_height + half_height : 0.0F;
+    block.window_x[i] = static_cast<std::int32_t>(window_x + 0.5F);
+    block.window_y[i] = static_cast<std::int32_t>(window_y + 0.5F);
+    block.depth[i] = is_inside ? clip_z * per_w : 0.0F;
+    block.per_w[i] = per_w;
+  }
+}
+
+/// Pixels whose centres lie in [centre - size / 2, centre + size / 2), all in 1/256 of a pixel: first and end.
+struct Span {
+  std::int32_t first;
+  std::int32_t end;
+};
+
+Span covered(std::int32_t centre, std::int32_t size, std::int32_t limit_px) {
+  const std::int32_t low = centre - kSubpixels / 2 - size / 2;
+  return {std::max((low + kSubpixels - 1) >> 8, 0), std::min((low + size + kSubpixels - 1) >> 8, limit_px)};
+}
+
+/// The picture that all threads write into.
+class Canvas {
+ public:
+  Canvas(std::uint64_t* keys, int width_px, int height_px) : keys_(keys), width_px_(width_px), height_px_(height_px) {}
+
+  void onePixel(std::int32_t x, std::int32_t y, std::uint64_t key) const {
+    const std::int32_t column = (x - 1) >> 8;  // (low + 255) >> 8 for a size of one pixel
+    const std::int32_t row = (y - 1) >> 8;
+    if ((column >= 0) & (row >= 0)) {
+      store(static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px_) + static_cast<std::size_t>(column),
+            key);
+    }
+  }
+
+  void square(std::int32_t x, std::int32_t y, float size_px, bool is_round, std::uint64_t key) const {
+    const auto size = static_cast<std::int32_t>(size_px * static_cast<float>(kSubpixels) + 0.5F);
+    const Span columns = covered(x, size, width_px_);
+    const Span rows = covered(y, size, height_px_);
+    const std::int64_t reach = is_round ? std::int64_t{size} * size : INT64_MAX;
+    for (std::int32_t row = rows.first; row < rows.end; ++row) {
+      const std::int64_t from_y = 2 * (std::int64_t{row} * kSubpixels + kSubpixels / 2 - y);
+      const std::size_t begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px_);
+      for (std::int32_t column = columns.first; column < columns.end; ++column) {
+        const std::int64_t from_x = 2 * (std::int64_t{column} * kSubpixels + kSubpixels / 2 - x);
+        if (from_x * from_x + from_y * from_y <= reach) {
+          store(begin + static_cast<std::size_t>(column), key);
+        }
+      }
+    }
+  }
+
+ private:
+  void store(std::size_t pixel, std::uint64_t key) const {
+    const std::atomic_ref<std::uint64_t> seen{keys_[pixel]};
+    std::uint64_t there = seen.load(std::memory_order_relaxed);
+    while (there < key && !seen.compare_exchange_weak(there, key, std::memory_order_relaxed)) {
+    }
+  }
+
+  std::uint64_t* keys_;
+  int width_px_;
+  int height_px_;
+};
+
+void scatter(const Block& block, std::span<const std::uint32_t> numbers, const Projection& projection,
+             const Canvas& canvas) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (block.depth[i] <= 0.0F) {
+      continue;
+    }
+    const std::uint64_t key = std::uint64_t{std::bit_cast<std::uint32_t>(block.depth[i])} << 32U |
+                              static_cast<std::uint32_t>(~(projection.first_number + numbers[i]));
+    if (projection.is_one_pixel) {
+      canvas.onePixel(block.window_x[i], block.window_y[i], key);
+    } else {
+      const float scale = projection.is_size_in_metres ? std::min(block.per_w[i], 1e6F) : 1.0F;
+      const float size_px = std::clamp(projection.size * scale, 1.0F, kMaxSizePx);
+      canvas.square(block.window_x[i], block.window_y[i], size_px, projection.is_round, key);
+    }
+  }
+}
+
+/// Collects points into blocks and draws each block that is full.
+class Feeder {
+ public:
+  Feeder(std::span<const float> positions, const Projection& projection, const Canvas& canvas)
+      : positions_(positions.data()), projection_(projection), canvas_(canvas) {}
+
+  void add(std::uint32_t number) {
+    const float* const point = positions_ + std::size_t{3} * number;
+    block_.x[filled_] = point[0];
+    block_.y[filled_] = point[1];
+    block_.z[filled_] = point[2];
+    numbers_[filled_] = number;
+    if (++filled_ == kBlock) {
+      flush();
+    }
+  }
+
+  void flush() {
+    project(block_, filled_, projection_);
+    scatter(block_, std::span(numbers_).first(filled_), projection_, canvas_);
+    filled_ = 0;
+  }
+
+ private:
+  const float* positions_;
+  const Projection& projection_;
+  const Canvas& canvas_;
+  std::size_t filled_ = 0;
+  std::array<std::uint32_t, kBlock> numbers_;
+  Block block_;
+};
+
+Projection projectionOf(const PointBatch& batch, int width_px, int height_px, std::uint32_t first_number) {
+  Projection made;
+  for (std::size_t i = 0; i < 16; ++i) {
+    const auto column = static_cast<glm::length_t>(i / 4);
+    const auto row = static_cast<glm::length_t>(i % 4);
+    made.clip_from_points[i] = static_cast<float>(batch.clip_from_points[column][row]);
+  }
+  made.half_width = 0.5F * static_cast<float>(width_px) * static_cast<float>(kSubpixels);
+  made.half_height = 0.5F * static_cast<float>(height_px) * static_cast<float>(kSubpixels);
+  made.size = batch.size;
+  made.is_size_in_metres = batch.is_size_in_metres;
+  made.is_round = batch.is_round;
+  made.is_one_pixel = !batch.is_size_in_metres && !(batch.size > 1.0F);
+  made.first_number = first_number;
+  return made;
+}
+
+/// The points of one group that the passes take, in the order of memory: a third of the time of their own order.
+void drawGroup(Feeder& feeder, const PassRange& passes, std::uint32_t first, std::uint32_t end) {
+  std::array<std::uint64_t, kPassesOfSample / 64> taken{};
+  for (std::uint32_t pass = passes.first; pass < passes.end; ++pass) {
+    const std::uint32_t place = placeInGroup(first / kPassesOfSample, pass);
+    taken[place / 64] |= std::uint64_t{1} << (place % 64);
+  }
+  for (std::size_t word = 0; word < taken.size(); ++word) {
+    for (std::uint64_t left = taken[word]; left != 0; left &= left - 1) {
+      const auto place = static_cast<std::uint32_t>(word * 64) + static_cast<std::uint32_t>(std::countr_zero(left));
+      if (first + place < end) {
+        feeder.add(first + place);
+      }
+    }
+  }
+}
+
+void drawPiece(std::span<const float> positions, const Projection& projection, const Canvas& canvas,
+               const PassRange& passes, std::uint32_t begin, std::uint32_t end) {
+  Feeder feeder(positions, projection, canvas);
+  if (passes.isWhole()) {
+    for (std::uint32_t number = begin; number < end; ++number) {
+      feeder.add(number);
+    }
+  } else {
+    for (std::uint32_t first = begin; first < end; first += kPassesOfSample) {
+      drawGroup(feeder, passes, first, end);
+    }
+  }
+  feeder.flush();
+}
+
+}  // namespace
+
+struct PointRaster::Threads {
+  explicit Threads(unsigned count) : arena(count == 0 ? tbb::task_arena::automatic : static_cast<int>(count)) {}
+  tbb::task_arena arena;
+};
+
+float PointKey::depth(std::uint64_t key) noexcept {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32U));
+}
+
+PointRaster::PointRaster(unsigned threads) : threads_(std::make_unique<Threads>(threads)) {}
+
+PointRaster::~PointRaster() = default;
+
+void PointRaster::begin(int width_px, int height_px) {
+  width_px_ = std::max(width_px, 0);
+  height_px_ = std::max(height_px, 0);
+  keys_.assign(static_cast<std::size_t>(width_px_) * static_cast<std::size_t>(height_px_), 0);
+}
+
+void PointRaster::draw(std::span<const PointBatch> batches, const PassRange& passes) {
+  if (keys_.empty()) {
+    return;
+  }
+  const Canvas canvas(keys_.data(), width_px_, height_px_);
+  std::uint32_t first_number = 0;
+  for (const PointBatch& batch : batches) {
+    const Projection projection = projectionOf(batch, width_px_, height_px_, first_number);
+    const std::size_t count = batch.count();
+    threads_->arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, (count + kPiece - 1) / kPiece, [&](std::size_t piece) {
+        const std::size_t begin = piece * kPiece;
+        drawPiece(batch.positions, projection, canvas, passes, static_cast<std::uint32_t>(begin),
+                  static_cast<std::uint32_t>(std::min(begin + kPiece, count)));
+      });
+    });
+    first_number += static_cast<std::uint32_t>(count);
+  }
+}
+
+}  // namespace stillframe::scenegraph

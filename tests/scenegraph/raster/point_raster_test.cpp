@@ -1,0 +1,232 @@
+#include "scenegraph/raster/point_raster.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <random>
+#include <set>
+
+namespace stillframe::scenegraph {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Reverse-Z, 90 degrees, from the origin along -z.
+glm::dmat4 perspective(double near_m) {
+  glm::dmat4 clip_from_eye(0.0);
+  clip_from_eye[0][0] = 1.0;
+  clip_from_eye[1][1] = 1.0;
+  clip_from_eye[2][3] = -1.0;
+  clip_from_eye[3][2] = near_m;
+  return clip_from_eye;
+}
+
+std::vector<float> randomCloud(std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> across(-3.0F, 3.0F);
+  std::vector<float> cloud;
+  for (std::size_t i = 0; i < count; ++i) {
+    cloud.insert(cloud.end(), {across(random), across(random), across(random) - 3.0F});
+  }
+  return cloud;
+}
+
+std::vector<std::uint64_t> drawn(std::span<const PointBatch> batches, int width_px, int height_px,
+                                 unsigned threads = 2) {
+  PointRaster raster(threads);
+  raster.begin(width_px, height_px);
+  raster.draw(batches);
+  return {raster.keys().begin(), raster.keys().end()};
+}
+
+/// Every point that may be seen at a pixel, by the definition, in double.
+struct Model {
+  int width_px;
+  int height_px;
+  std::vector<std::set<std::uint32_t>> candidates;  // nearest within 1e-6 of the depth, borders within 1/256 of a pixel
+
+  Model(const PointBatch& batch, int width, int height) : width_px(width), height_px(height) {
+    std::vector<double> sure(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0);
+    candidates.resize(sure.size());
+    for (const bool collect : {false, true}) {
+      for (std::uint32_t i = 0; i < batch.count(); ++i) {
+        const glm::dvec4 clip = batch.clip_from_points * glm::dvec4(batch.positions[3 * i], batch.positions[3 * i + 1],
+                                                                    batch.positions[3 * i + 2], 1.0);
+        const double depth = clip.z / clip.w;
+        if (!(clip.w > 0.0) || !(depth > 0.0) || depth > 1.0 + 1e-6 || std::abs(clip.x) > clip.w * (1.0 + 1e-6) ||
+            std::abs(clip.y) > clip.w * (1.0 + 1e-6)) {
+          continue;
+        }
+        const double x = (clip.x / clip.w * 0.5 + 0.5) * width;
+        const double y = (clip.y / clip.w * 0.5 + 0.5) * height;
+        visit(x, y, batch, [&](std::size_t pixel, bool is_sure) {
+          if (!collect) {
+            sure[pixel] = is_sure ? std::max(sure[pixel], depth) : sure[pixel];
+          } else if (depth >= sure[pixel] * (1.0 - 1e-6)) {
+            candidates[pixel].insert(i);
+          }
+        });
+      }
+    }
+    for (std::size_t pixel = 0; pixel < sure.size(); ++pixel) {
+      if (sure[pixel] == 0.0) {
+        candidates[pixel].insert(~0U);  // may be empty
+      }
+    }
+  }
+
+  template <typename Visit>
+  void visit(double x, double y, const PointBatch& batch, const Visit& visit_pixel) const {
+    const double half = 0.5 * std::max(batch.size, 1.0F);
+    const double slack = 1.0 / 200.0;
+    for (int row = 0; row < height_px; ++row) {
+      for (int column = 0; column < width_px; ++column) {
+        const double from_x = column + 0.5 - x;
+        const double from_y = row + 0.5 - y;
+        const double reach = batch.is_round ? std::hypot(from_x, from_y) : std::max(std::abs(from_x), std::abs(from_y));
+        if (reach <= half + slack) {
+          visit_pixel(static_cast<std::size_t>(row * width_px + column), reach < half - slack);
+        }
+      }
+    }
+  }
+};
+
+class PointRasterSizes : public testing::TestWithParam<std::pair<float, bool>> {};
+
+TEST_P(PointRasterSizes, ShowsTheNearestPointOfEachPixel) {
+  const std::vector<float> cloud = randomCloud(3000, 7);
+  PointBatch batch{.positions = cloud, .clip_from_points = perspective(0.1)};
+  batch.size = GetParam().first;
+  batch.is_round = GetParam().second;
+  const std::vector<std::uint64_t> keys = drawn({&batch, 1}, 41, 29);
+  const Model model(batch, 41, 29);
+  std::size_t covered = 0;
+  for (std::size_t pixel = 0; pixel < keys.size(); ++pixel) {
+    const std::uint32_t seen = keys[pixel] == 0 ? ~0U : PointKey::point(keys[pixel]);
+    EXPECT_TRUE(model.candidates[pixel].contains(seen)) << "pixel " << pixel << " shows " << seen;
+    covered += keys[pixel] != 0 ? 1 : 0;
+  }
+  EXPECT_GT(covered, 500U);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PointRasterSizes,
+                         testing::Values(std::pair{1.0F, false}, std::pair{0.2F, false}, std::pair{2.0F, false},
+                                         std::pair{3.0F, true}, std::pair{6.5F, false}, std::pair{7.0F, true}));
+
+TEST(PointRaster, DependsNeitherOnThreadsNorOnPassesNorOnBatches) {
+  const std::vector<float> cloud = randomCloud(200'000, 3);
+  const PointBatch whole{.positions = cloud, .clip_from_points = perspective(0.1), .size = 2.0F};
+  const std::vector<std::uint64_t> reference = drawn({&whole, 1}, 320, 200, 1);
+  EXPECT_EQ(drawn({&whole, 1}, 320, 200, 4), reference);
+
+  const std::size_t cut = 3 * 77'777;
+  const std::array halves{PointBatch{whole}, PointBatch{whole}};
+  std::array<PointBatch, 2> parts = halves;
+  parts[0].positions = whole.positions.first(cut);
+  parts[1].positions = whole.positions.subspan(cut);
+  EXPECT_EQ(drawn(parts, 320, 200), reference);
+
+  PointRaster raster(3);
+  raster.begin(320, 200);
+  for (std::uint32_t first = 0; first < kPassesOfSample; first += 100) {
+    raster.draw({&whole, 1}, {first, std::min(first + 100, kPassesOfSample)});
+  }
+  EXPECT_TRUE(std::ranges::equal(raster.keys(), reference));
+}
+
+TEST(PointRaster, OfEquallyNearPointsTheFirstIsSeen) {
+  const std::vector<float> cloud{0.0F, 0.0F, -1.0F, 0.0F, 0.0F, -1.0F};
+  const PointBatch batch{.positions = cloud, .clip_from_points = perspective(0.5)};
+  const std::vector<std::uint64_t> keys = drawn({&batch, 1}, 1, 1);
+  EXPECT_EQ(PointKey::point(keys.front()), 0U);
+  EXPECT_EQ(PointKey::depth(keys.front()), 0.5F);
+}
+
+TEST(PointRaster, LeavesOutWhatIsOutsideOrNowhere) {
+  for (const std::vector<float>& point : std::vector<std::vector<float>>{{0.0F, 0.0F, 1.0F},
+                                                                         {0.0F, 0.0F, 0.0F},
+                                                                         {0.0F, 0.0F, -0.05F},
+                                                                         {2.0F, 0.0F, -1.0F},
+                                                                         {0.0F, -1.1F, -1.0F},
+                                                                         {kNan, 0.0F, -1.0F},
+                                                                         {0.0F, 0.0F, kNan},
+                                                                         {kInfinity, 0.0F, -1.0F},
+                                                                         {0.0F, 0.0F, -kInfinity}}) {
+    const PointBatch batch{.positions = point, .clip_from_points = perspective(0.1), .size = 1.0F};
+    EXPECT_THAT(drawn({&batch, 1}, 8, 8), testing::Each(0U)) << point[0] << " " << point[1] << " " << point[2];
+  }
+}
+
+TEST(PointRaster, SurvivesDegenerateMatrices) {
+  const std::vector<float> cloud = randomCloud(5000, 1);
+  for (const double entry : {0.0, 1e-300, 1e300, static_cast<double>(kNan), static_cast<double>(kInfinity)}) {
+    const PointBatch batch{
+        .positions = cloud, .clip_from_points = glm::dmat4(entry), .size = kNan, .is_size_in_metres = true};
+    EXPECT_EQ(drawn({&batch, 1}, 16, 16).size(), 256U);
+  }
+}
+
+TEST(PointRaster, SizesInMetresShrinkWithDistance) {
+  for (const float distance : {1.0F, 2.0F, 4.0F}) {
+    const std::vector<float> point{0.0F, 0.0F, -distance};
+    const PointBatch batch{
+        .positions = point, .clip_from_points = perspective(0.1), .size = 32.0F, .is_size_in_metres = true};
+    const std::vector<std::uint64_t> keys = drawn({&batch, 1}, 64, 64);
+    const auto covered = std::ranges::count_if(keys, [](std::uint64_t key) { return key != 0; });
+    EXPECT_EQ(covered, std::lround(32.0F / distance * 32.0F / distance)) << distance;
+  }
+}
+
+TEST(PointRaster, APictureWithoutPixelsOrPointsIsEmpty) {
+  PointRaster raster;
+  raster.begin(0, 100);
+  raster.draw({});
+  EXPECT_TRUE(raster.keys().empty());
+  raster.begin(-5, 3);
+  EXPECT_TRUE(raster.keys().empty());
+  raster.begin(2, 2);
+  raster.draw({});
+  const PointBatch none;
+  raster.draw({&none, 1});
+  EXPECT_THAT(raster.keys(), testing::Each(0U));
+}
+
+TEST(SampleOrder, EveryGroupGivesEachPointOnce) {
+  for (const std::uint32_t group : {0U, 1U, 77U, 0xffffffffU}) {
+    std::set<std::uint32_t> places;
+    for (std::uint32_t pass = 0; pass < kPassesOfSample; ++pass) {
+      places.insert(placeInGroup(group, pass));
+    }
+    EXPECT_EQ(places.size(), kPassesOfSample);
+    EXPECT_EQ(*places.rbegin(), kPassesOfSample - 1);
+  }
+}
+
+TEST(SampleOrder, APrefixTakesAsMuchOfEachRingAndOfEachStretch) {
+  // 64 rings interleaved point by point, and 64 stretches one after another, of a million points.
+  constexpr std::uint32_t kGroups = 1024;
+  for (const std::uint32_t passes : {1U, 3U, 10U, 100U}) {
+    std::array<std::uint32_t, 64> rings{};
+    for (std::uint32_t group = 0; group < kGroups; ++group) {
+      std::uint32_t early = 0;
+      for (std::uint32_t pass = 0; pass < passes; ++pass) {
+        const std::uint32_t place = placeInGroup(group, pass);
+        ++rings[place % 64];
+        early += place < kPassesOfSample / 2 ? 1 : 0;
+      }
+      EXPECT_LE(std::abs(2 * static_cast<int>(early) - static_cast<int>(passes)), 1) << "group " << group;
+    }
+    const double expected = static_cast<double>(kGroups) * passes / 64.0;
+    for (const std::uint32_t taken : rings) {
+      EXPECT_NEAR(taken, expected, 5.0 * std::sqrt(expected)) << passes << " passes";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace stillframe::scenegraph

@@ -25,6 +25,8 @@ struct DepthFrame {
 
   [[nodiscard]] static std::expected<DepthFrame, scenegraph::Status> make(
       std::shared_ptr<const scenegraph::Image> image);
+  /// Frees the array on the GPU, in every context. GUI thread.
+  void releaseGlObjects() const { depths->releaseGLObjects(); }
   [[nodiscard]] std::size_t pixels() const noexcept { return std::size_t{width} * height; }
   [[nodiscard]] std::size_t byteSize() const;
 };

@@ -4,10 +4,6 @@
 #include <cmath>
 
 #include "nodes/images/depth_map.h"
-#include "nodes/osg_math.h"
-#include "nodes/points/value_range.h"
-#include "scenegraph/geometry.h"
-#include "scenegraph/placement.h"
 
 namespace stillframe::nodes {
 
@@ -18,102 +14,81 @@ std::unique_ptr<scenegraph::Layer> DepthImageLayer::create(std::string_view topi
   return std::make_unique<DepthImageLayer>(topic);
 }
 
-DepthImageLayer::DepthImageLayer(std::string_view topic) : topic_(topic) {}
+DepthImageLayer::DepthImageLayer(std::string_view topic)
+    : SampleLayer(
+          topic,
+          {.type = scenegraph::ObjectType::Image,
+           .tag = "depth",
+           .convert = [](const scenegraph::AnyObject& object,
+                         const scenegraph::Entry&) { return DepthFrame::make(object.get<scenegraph::Image>()); },
+           .is_reference = [](const DepthFrame& frame) { return frame.valid > 0; }},
+          depthImageSettingsTable()) {}
 
-DepthImageLayer::~DepthImageLayer() = default;
-
-void DepthImageLayer::attach(const scenegraph::LayerContext& context) {
-  context_.emplace(context);
-  loader_.emplace(
-      context, scenegraph::ObjectType::Image, topic_, "depth",
-      [](const scenegraph::AnyObject& object, const scenegraph::Entry&) {
-        return DepthFrame::make(object.get<scenegraph::Image>());
-      },
-      [](const DepthFrame& frame) { return frame.valid > 0; });
-  camera_.emplace(context, topic_);
-  color_.emplace(context, topic_);
-  geometry_ = scenegraph::makeGeometry();
-  geometry_->setName(topic_);
-  node_ = new osg::MatrixTransform;
-  node_->setName(topic_);
-  node_->setStateSet(state_.stateSet());
-  node_->addChild(geometry_);
-  applied_.reset();
+void DepthImageLayer::open(const scenegraph::LayerContext& context) {
+  SampleLayer::open(context);
+  camera_.emplace(context, topic());
+  color_.emplace(context, topic());
+  geometry_ = addGeometry(state_.stateSet());
 }
 
-void DepthImageLayer::detach() {
-  if (context_) {
-    clear();
-  }
-  loader_.reset();
+void DepthImageLayer::close() {
+  SampleLayer::close();
   camera_.reset();
   color_.reset();
-  reference_ = nullptr;
   percentiles_ = {};
   geometry_ = nullptr;
-  node_ = nullptr;
-  context_.reset();
-}
-
-void DepthImageLayer::setVisible(bool visible) {
-  visible_ = visible;
-  if (!visible && context_) {
-    clear();
-  }
 }
 
 void DepthImageLayer::clear() {
+  SampleLayer::clear();
   show({});
-  hold(std::nullopt);
   camera_->cancel();
   color_->cancel();
   is_joining_ = false;
-  applied_.reset();
-  status_ = {};
   join_status_ = {};
-  bounds_.init();
 }
 
-bool DepthImageLayer::isPending() const {
-  return visible_ && loader_ && (loader_->isPending() || camera_->isPending() || color_->isPending());
+bool DepthImageLayer::isWorking() const {
+  return SampleLayer::isWorking() || camera_->isPending() || color_->isPending();
 }
 
-void DepthImageLayer::update(const scenegraph::Tick& tick) {
-  if (!context_ || !visible_) {
-    return;
-  }
-  (void)loader_->update(tick.time);
+std::optional<TopicLayer::Anchor> DepthImageLayer::load(const scenegraph::Tick& tick) {
+  loadSample(tick);
   auto joined = join(tick.time);
   is_joining_ = !joined.has_value();
   if (joined) {
     show(std::move(*joined));
   }
-  hold(shown_.depth != nullptr ? std::optional(std::string(tf::stripLeadingSlashes(shown_.depth->source->frame_id)))
-                               : std::nullopt);
-  if (applied_ != settings_) {
-    state_.apply(settings_);
-    applied_ = settings_;
-  }
   measure();
-  if (shown_.depth != nullptr) {
-    const auto reference = loader_->reference();
-    reference_ = reference != nullptr ? reference : shown_.depth;
-    paint();
+  if (shown_.depth == nullptr) {
+    return std::nullopt;
   }
-  const Placement placement =
-      held_frame_ ? context_->frames.fixedFromFrame(*held_frame_) : Placement(std::unexpected(tf::LookupFailure{}));
-  bounds_.init();
-  if (placement && extent_.points > 0) {
-    for (unsigned i = 0; i < 8; ++i) {
-      const osg::Vec3 corner = extent_.box.corner(i);
-      bounds_.expandBy(toOsg(tf::transformPoint(*placement, {corner.x(), corner.y(), corner.z()})));
-    }
-  }
-  status_ = judge(placement);
+  takeReference(shown_.depth);
+  return anchorOf(*shown_.depth);
 }
 
-std::optional<DepthImageLayer::Shown> DepthImageLayer::join(tf::TimePoint time) {
-  Shown joined{.depth = loader_->product(), .rays = nullptr, .colors = nullptr};
+TopicLayer::Anchor DepthImageLayer::anchorOf(const DepthFrame& frame) const { return {frame.source->frame_id, {}}; }
+
+osg::BoundingBoxd DepthImageLayer::box() const {
+  return extent_.points > 0 ? osg::BoundingBoxd(extent_.box) : osg::BoundingBoxd();
+}
+
+void DepthImageLayer::draw(const Placement& /*fixed_from_data*/) {
+  if (takeSettings()) {
+    state_.apply(chosen());
+  }
+  const ValueRange range =
+      chosen().range([&] { return ValueRange{reference()->nearest_m, reference()->farthest_m}; },
+                     [&](double low, double high) { return percentiles_.of(reference(), low, high); });
+  const bool is_flat = chosen().color_mode == "flat";
+  state_.setColor(is_flat                    ? DepthColor::Flat
+                  : shown_.colors != nullptr ? DepthColor::Rgb
+                                             : DepthColor::Depth,
+                  chosen().map(range));
+}
+
+std::optional<DepthImageLayer::Joined> DepthImageLayer::join(tf::TimePoint time) {
+  Joined joined{.depth = loader().product(), .rays = nullptr, .colors = nullptr};
   if (joined.depth == nullptr || joined.depth->valid == 0) {
     camera_->cancel();
     color_->cancel();
@@ -122,7 +97,7 @@ std::optional<DepthImageLayer::Shown> DepthImageLayer::join(tf::TimePoint time) 
   }
   const DepthFrame& depth = *joined.depth;
   const std::string frame(tf::stripLeadingSlashes(depth.source->frame_id));
-  const auto rays = camera_->get({frame, depth.width, depth.height, settings_.info_topic, settings_.rectify}, time);
+  const auto rays = camera_->get({frame, depth.width, depth.height, chosen().info_topic, chosen().rectify}, time);
   if (!rays) {
     return std::nullopt;
   }
@@ -132,7 +107,7 @@ std::optional<DepthImageLayer::Shown> DepthImageLayer::join(tf::TimePoint time) 
     return joined;
   }
   joined.rays = **rays;
-  if (settings_.color_mode != "rgb") {
+  if (chosen().color_mode != "rgb") {
     color_->cancel();
     join_status_ = {};
     return joined;
@@ -146,12 +121,12 @@ std::optional<DepthImageLayer::Shown> DepthImageLayer::join(tf::TimePoint time) 
   return joined;
 }
 
-void DepthImageLayer::show(Shown shown) {
+void DepthImageLayer::show(Joined shown) {
   if (shown == shown_) {
     return;
   }
   if (shown_.depth != nullptr && shown_.depth != shown.depth) {
-    shown_.depth->depths->releaseGLObjects();
+    shown_.depth->releaseGlObjects();
   }
   if (shown_.rays != nullptr && shown_.rays != shown.rays) {
     shown_.rays->rays->releaseGLObjects();
@@ -164,7 +139,7 @@ void DepthImageLayer::show(Shown shown) {
 }
 
 void DepthImageLayer::measure() {
-  const float limit = depthLimit(settings_);
+  const float limit = depthLimit(chosen());
   if (measured_limit_ == limit) {
     return;
   }
@@ -195,25 +170,9 @@ void DepthImageLayer::measure() {
   // The vertices are rays of depth 1. Scaled by a power of two (exact) no less than the greatest depth they bound the
   // points for culling, near and far. An initial bound would not do: OSG 3.6.5 cannot read it back from .osgt.
   const double scale = extent_.points > 0 ? std::exp2(std::ceil(std::log2(extent_.box.zMax()))) : 1.0;
-  node_->setMatrix(osg::Matrixd::scale(scale, scale, scale));
+  node().setMatrix(osg::Matrixd::scale(scale, scale, scale));
   state_.setUnit(static_cast<float>(1.0 / scale));
   geometry_->dirtyBound();
-}
-
-void DepthImageLayer::hold(const std::optional<std::string>& frame) {
-  if (held_frame_ == frame) {
-    return;
-  }
-  if (held_frame_) {
-    if (osg::MatrixTransform* const parent = context_->frames.node(*held_frame_)) {
-      parent->removeChild(node_);
-    }
-    context_->frames.release(*held_frame_);
-  }
-  held_frame_ = frame;
-  if (held_frame_) {
-    context_->frames.acquire(*held_frame_).addChild(node_);
-  }
 }
 
 ValueRange DepthImageLayer::Percentiles::of(const std::shared_ptr<const DepthFrame>& frame, double low, double high) {
@@ -226,28 +185,8 @@ ValueRange DepthImageLayer::Percentiles::of(const std::shared_ptr<const DepthFra
   return range;
 }
 
-void DepthImageLayer::paint() {
-  const ValueRange range =
-      settings_.range([&] { return ValueRange{reference_->nearest_m, reference_->farthest_m}; },
-                      [&](double low, double high) { return percentiles_.of(reference_, low, high); });
-  const bool is_flat = settings_.color_mode == "flat";
-  state_.setColor(is_flat                    ? DepthColor::Flat
-                  : shown_.colors != nullptr ? DepthColor::Rgb
-                                             : DepthColor::Depth,
-                  settings_.map(range));
-}
-
-Status DepthImageLayer::judge(const Placement& placement) const {
-  if (shown_.depth == nullptr) {
-    return loader_->status();
-  }
-  if (!placement) {
-    return scenegraph::placementStatus(context_->frames, *held_frame_, placement.error());
-  }
-  if (loader_->status().level != StatusLevel::Ok) {
-    return loader_->status();
-  }
-  const std::string sample = "'" + topic_ + "' at " + scenegraph::timeText(loader_->entry()->log_time) + ": ";
+Status DepthImageLayer::remark() const {
+  const std::string sample = loadedText();
   if (is_joining_) {
     return {StatusLevel::Warn, "Decoding", sample + "its camera is being looked up"};
   }
@@ -280,19 +219,13 @@ scenegraph::LayerCounts DepthImageLayer::counts() const {
 }
 
 std::vector<scenegraph::SettingSpec> DepthImageLayer::settingSpecs() const {
-  auto specs = depthImageSettingsTable().specs();
+  auto specs = SampleLayer::settingSpecs();
   if (camera_) {
     for (std::string& name : camera_->topicNames()) {
       specs.back().choices.push_back(std::move(name));
     }
   }
   return specs;
-}
-
-scenegraph::SettingTexts DepthImageLayer::settings() const { return depthImageSettingsTable().texts(settings_); }
-
-std::expected<void, scenegraph::SettingError> DepthImageLayer::applySettings(const scenegraph::SettingTexts& texts) {
-  return depthImageSettingsTable().apply(texts, settings_);
 }
 
 }  // namespace stillframe::nodes

@@ -1,126 +1,60 @@
 #include "nodes/grid_map/grid_map_layer.h"
 
-#include <mutex>
 #include <utility>
 
 #include "nodes/osg_math.h"
-#include "scenegraph/geometry.h"
-#include "scenegraph/placement.h"
 
 namespace stillframe::nodes {
 
 using scenegraph::Status;
 using scenegraph::StatusLevel;
 
-/// The settings in use, for the workers: they convert the layers that these name.
-struct GridMapLayer::Foresight {
-  std::mutex mutex;  // guards settings
-  GridMapSettings settings;
-
-  void set(const GridMapSettings& now) {
-    const std::scoped_lock lock(mutex);
-    settings = now;
-  }
-  void prepare(const GridSurface& map) {
-    Choice choice;
-    {
-      const std::scoped_lock lock(mutex);
-      choice = choose(settings, map);
-    }
-    if (!choice.height.empty()) {
-      (void)map.mesh(choice.height);
-    }
-    if (choice.mode == MapColorMode::Rgb) {
-      (void)map.colors();
-    } else if (choice.mode == MapColorMode::Value) {
-      (void)map.layer(choice.color);
-    }
-  }
-};
-
 std::unique_ptr<scenegraph::Layer> GridMapLayer::create(std::string_view topic) {
   return std::make_unique<GridMapLayer>(topic);
 }
 
-GridMapLayer::GridMapLayer(std::string_view topic) : topic_(topic), foresight_(std::make_shared<Foresight>()) {}
+GridMapLayer::GridMapLayer(std::string_view topic)
+    : SampleLayer(
+          topic,
+          {.type = scenegraph::ObjectType::GridMap,
+           .tag = "grid map",
+           .convert = [](const scenegraph::AnyObject& object,
+                         const scenegraph::Entry&) { return GridSurface::make(object.get<scenegraph::GridMap>()); },
+           .is_reference = [](const GridSurface& map) { return map.cells().all.points > 0; },
+           .prepare = &GridMapLayer::prepare},
+          gridMapSettingsTable()) {}
 
-GridMapLayer::~GridMapLayer() = default;
-
-void GridMapLayer::attach(const scenegraph::LayerContext& context) {
-  context_.emplace(context);
-  loader_.emplace(
-      context, scenegraph::ObjectType::GridMap, topic_, "grid map",
-      [foresight = foresight_](const scenegraph::AnyObject& object,
-                               const scenegraph::Entry&) -> std::expected<GridSurface, Status> {
-        auto surface = GridSurface::make(object.get<scenegraph::GridMap>());
-        if (surface) {
-          foresight->prepare(*surface);
-        }
-        return surface;
-      },
-      [](const GridSurface& map) { return map.cells().all.points > 0; });
-  geometry_ = scenegraph::makeGeometry();
-  geometry_->setName(topic_);
-  node_ = new osg::MatrixTransform;
-  node_->setName(topic_);
-  node_->setStateSet(state_.stateSet());
-  node_->addChild(geometry_);
+void GridMapLayer::prepare(const GridSurface& map, const GridMapSettings& settings) {
+  const Choice choice = choose(settings, map);
+  if (!choice.height.empty()) {
+    (void)map.mesh(choice.height);
+  }
+  if (choice.mode == MapColorMode::Rgb) {
+    (void)map.colors();
+  } else if (choice.mode == MapColorMode::Value) {
+    (void)map.layer(choice.color);
+  }
 }
 
-void GridMapLayer::detach() {
-  if (context_) {
-    clear();
-  }
-  loader_.reset();
-  reference_ = nullptr;
+void GridMapLayer::open(const scenegraph::LayerContext& context) {
+  SampleLayer::open(context);
+  geometry_ = addGeometry(state_.stateSet());
+}
+
+void GridMapLayer::close() {
+  SampleLayer::close();
   geometry_ = nullptr;
-  node_ = nullptr;
-  context_.reset();
 }
 
-void GridMapLayer::setVisible(bool visible) {
-  visible_ = visible;
-  if (!visible && context_) {
-    clear();
-  }
+TopicLayer::Anchor GridMapLayer::anchorOf(const GridSurface& map) const {
+  return {map.source().frame_id, map.source().origin};
 }
 
-void GridMapLayer::clear() {
-  show(nullptr);
-  hold(std::nullopt);
-  status_ = {};
-  bounds_.init();
-}
-
-void GridMapLayer::update(const scenegraph::Tick& tick) {
-  if (!context_ || !visible_) {
-    return;
+void GridMapLayer::draw(const Placement& /*fixed_from_data*/) {
+  if (const Choice choice = choose(chosen(), *product()); choice != choice_) {
+    build(choice);
   }
-  foresight_->set(settings_);
-  (void)loader_->update(tick.time);
-  if (loader_->product() != product_) {
-    show(loader_->product());
-  }
-  hold(product_ != nullptr ? std::optional(std::string(tf::stripLeadingSlashes(product_->source().frame_id)))
-                           : std::nullopt);
-  bounds_.init();
-  if (product_ != nullptr) {
-    const auto reference = loader_->reference();
-    reference_ = reference != nullptr ? reference : product_;
-    if (const Choice choice = choose(settings_, *product_); choice != choice_) {
-      build(choice);
-    }
-    paint();
-    const auto fixed_from_frame = context_->frames.fixedFromFrame(*held_frame_);
-    if (fixed_from_frame && box_.valid()) {
-      const tf::RigidTransform fixed_from_map = *fixed_from_frame * product_->source().origin;
-      for (unsigned corner = 0; corner < 8; ++corner) {
-        const osg::Vec3d at = box_.corner(corner);
-        bounds_.expandBy(toOsg(tf::transformPoint(fixed_from_map, {at.x(), at.y(), at.z()})));
-      }
-    }
-  }
-  status_ = judge();
+  paint();
 }
 
 GridMapLayer::Choice GridMapLayer::choose(const GridMapSettings& settings, const GridSurface& map) {
@@ -150,13 +84,9 @@ GridMapLayer::Choice GridMapLayer::choose(const GridMapSettings& settings, const
   return choice;
 }
 
-void GridMapLayer::show(std::shared_ptr<const GridSurface> product) {
-  if (product_ != nullptr) {
-    product_->releaseGlObjects();
-  }
-  product_ = std::move(product);
+void GridMapLayer::show() {
   choice_.reset();
-  applied_.reset();
+  reapply();
   box_.init();
   triangles_ = 0;
   geometry_->removePrimitiveSet(0, geometry_->getNumPrimitiveSets());
@@ -167,24 +97,25 @@ void GridMapLayer::show(std::shared_ptr<const GridSurface> product) {
 }
 
 void GridMapLayer::build(const Choice& choice) {
-  show(product_);
+  product()->releaseGlObjects();
+  show();
   choice_ = choice;
-  const scenegraph::GridMap& map = product_->source();
+  const scenegraph::GridMap& map = product()->source();
   state_.setCells(map.cell_size_m, map.column_count, map.row_count);
-  node_->setMatrix(toOsg(map.origin));
-  if (product_->cells().all.points == 0) {
+  node().setMatrix(toOsg(map.origin));
+  if (product()->cells().all.points == 0) {
     return;
   }
   const double width = map.cell_size_m.x * map.column_count;
   const double height = map.cell_size_m.y * map.row_count;
-  if (const MapMesh* const mesh = choice.height.empty() ? nullptr : product_->mesh(choice.height)) {
+  if (const MapMesh* const mesh = choice.height.empty() ? nullptr : product()->mesh(choice.height)) {
     if (mesh->triangles->empty()) {
       return;
     }
     geometry_->setVertexArray(mesh->positions);
     geometry_->setVertexAttribArray(GridMapState::kNormalAttribute, mesh->normals);
     geometry_->addPrimitiveSet(mesh->triangles);
-    node_->setMatrix(osg::Matrixd::translate(0, 0, mesh->z_origin) * toOsg(map.origin));
+    node().setMatrix(osg::Matrixd::translate(0, 0, mesh->z_origin) * toOsg(map.origin));
     triangles_ = mesh->triangles->size() / 3;
     box_.set(map.cell_size_m.x / 2, map.cell_size_m.y / 2, mesh->low, width - map.cell_size_m.x / 2,
              height - map.cell_size_m.y / 2, mesh->high);
@@ -209,96 +140,63 @@ void GridMapLayer::paint() {
   RangeMap map;
   osg::Texture2D* texture = nullptr;
   if (choice_->mode == MapColorMode::Rgb) {
-    texture = product_->colors();
+    texture = product()->colors();
   } else if (const MapLayer* const layer =
-                 choice_->mode == MapColorMode::Value ? product_->layer(choice_->color) : nullptr) {
+                 choice_->mode == MapColorMode::Value ? product()->layer(choice_->color) : nullptr) {
     texture = layer->texture;
-    const MapLayer* const of_reference = settings_.range_mode == "manual" ? nullptr : reference_->layer(choice_->color);
+    const MapLayer* const of_reference = chosen().range_mode == "manual" ? nullptr : reference()->layer(choice_->color);
     const bool is_held = of_reference != nullptr && of_reference->limits.finite > 0;
     const ChannelValues& limits = is_held ? of_reference->limits : layer->limits;
     const ValueRange range =
-        settings_.range([&] { return ValueRange{limits.low, limits.high}; },
-                        [&](double low, double high) {
-                          return (is_held ? *reference_ : *product_).percentiles(choice_->color, low, high);
-                        });
-    map = settings_.map(range, layer->limits.offset);
+        chosen().range([&] { return ValueRange{limits.low, limits.high}; },
+                       [&](double low, double high) {
+                         return (is_held ? *reference() : *product()).percentiles(choice_->color, low, high);
+                       });
+    map = chosen().map(range, layer->limits.offset);
   }
-  if (applied_ != settings_) {
-    state_.apply(settings_, !choice_->height.empty(), choice_->mode == MapColorMode::Rgb && product_->cells().alpha);
-    applied_ = settings_;
+  if (takeSettings()) {
+    state_.apply(chosen(), !choice_->height.empty(), choice_->mode == MapColorMode::Rgb && product()->cells().alpha);
   }
   state_.setColor(choice_->mode, texture, map);
 }
 
-void GridMapLayer::hold(const std::optional<std::string>& frame) {
-  if (held_frame_ == frame) {
-    return;
-  }
-  if (held_frame_) {
-    if (osg::MatrixTransform* const parent = context_->frames.node(*held_frame_)) {
-      parent->removeChild(node_);
-    }
-    context_->frames.release(*held_frame_);
-  }
-  held_frame_ = frame;
-  if (held_frame_) {
-    context_->frames.acquire(*held_frame_).addChild(node_);
-  }
-}
-
-Status GridMapLayer::judge() const {
-  if (product_ == nullptr) {
-    return loader_->status();
-  }
-  if (const auto placement = context_->frames.fixedFromFrame(*held_frame_); !placement) {
-    return scenegraph::placementStatus(context_->frames, *held_frame_, placement.error());
-  }
-  if (loader_->status().level != StatusLevel::Ok) {
-    return loader_->status();
-  }
+Status GridMapLayer::remark() const {
   if (!choice_->missing.empty()) {
-    std::string known = product_->cells().colors ? "rgb" : "";
-    for (const ChannelInfo& layer : product_->cells().layers) {
+    std::string known = product()->cells().colors ? "rgb" : "";
+    for (const ChannelInfo& layer : product()->cells().layers) {
       known += (known.empty() ? "" : ", ") + layer.name;
     }
     return {StatusLevel::Info, "UnknownField",
-            "'" + topic_ + "' at " + scenegraph::timeText(loader_->entry()->log_time) + ": no layer '" +
-                choice_->missing + "'; there are " + (known.empty() ? "none" : known)};
+            loadedText() + "no layer '" + choice_->missing + "'; there are " + (known.empty() ? "none" : known)};
   }
   return {};
 }
 
 scenegraph::LayerCounts GridMapLayer::counts() const {
-  if (product_ == nullptr) {
+  if (product() == nullptr) {
     return {{"cells", 0}, {"triangles", 0}, {"bytes", 0}};
   }
-  return {{"cells", product_->cells().all.points},
+  return {{"cells", product()->cells().all.points},
           {"triangles", triangles_},
-          {"bytes", product_->source().data.bytes.size()}};
+          {"bytes", product()->source().data.bytes.size()}};
 }
 
 std::vector<scenegraph::SettingSpec> GridMapLayer::settingSpecs() const {
-  auto specs = gridMapSettingsTable().specs();
-  if (reference_ != nullptr) {
+  auto specs = SampleLayer::settingSpecs();
+  if (reference() != nullptr) {
     for (auto& spec : specs) {
       if (spec.key != "height_field" && spec.key != "color_field") {
         continue;
       }
-      if (spec.key == "color_field" && reference_->cells().colors) {
+      if (spec.key == "color_field" && reference()->cells().colors) {
         spec.choices.insert(spec.choices.begin() + 1, "rgb");
       }
-      for (const ChannelInfo& layer : reference_->cells().layers) {
+      for (const ChannelInfo& layer : reference()->cells().layers) {
         spec.choices.push_back(layer.name);
       }
     }
   }
   return specs;
-}
-
-scenegraph::SettingTexts GridMapLayer::settings() const { return gridMapSettingsTable().texts(settings_); }
-
-std::expected<void, scenegraph::SettingError> GridMapLayer::applySettings(const scenegraph::SettingTexts& texts) {
-  return gridMapSettingsTable().apply(texts, settings_);
 }
 
 }  // namespace stillframe::nodes

@@ -63,21 +63,17 @@ void LaserScanLayer::forget() {
   remark_ = {};
 }
 
-void LaserScanLayer::detach() {
-  PointCloudLayer::detach();
+void LaserScanLayer::close() {
+  PointCloudLayer::close();
   forget();
 }
 
-void LaserScanLayer::setVisible(bool visible) {
-  PointCloudLayer::setVisible(visible);
-  if (!visible) {
-    forget();
-  }
+void LaserScanLayer::clear() {
+  PointCloudLayer::clear();
+  forget();
 }
 
-bool LaserScanLayer::isPending() const {
-  return PointCloudLayer::isPending() || (isVisible() && job_ && job_->isPending());
-}
+bool LaserScanLayer::isWorking() const { return PointCloudLayer::isWorking() || (job_ && job_->isPending()); }
 
 std::optional<LaserScanLayer::Plan> LaserScanLayer::plan(const CloudPoints& loaded) {
   const double duration_s = loaded.supplement().duration_s;
@@ -86,22 +82,22 @@ std::optional<LaserScanLayer::Plan> LaserScanLayer::plan(const CloudPoints& load
     return std::nullopt;
   }
   const auto refuse = [&](const std::string& why) {
-    remark_ = {StatusLevel::Info, "NotDeskewed", sampleText() + "drawn without de-skewing: " + why};
+    remark_ = {StatusLevel::Info, "NotDeskewed", loadedText() + "drawn without de-skewing: " + why};
     return std::nullopt;
   };
   if (std::abs(duration_s) > kLongestScan_s) {
     return refuse("its time_increment makes it take " + std::to_string(duration_s) + " s");
   }
-  const bool is_log = context()->dataset.tfClockInUse() == scenegraph::TfClock::Log;
+  const bool is_log = context().dataset.tfClockInUse() == scenegraph::TfClock::Log;
   // Far from the ends of int64, so that no beam's time overflows.
   constexpr std::int64_t kFar_ns = std::int64_t{1} << 62;
-  const std::int64_t stamp_ns = is_log ? loadedEntry()->log_time.ns : loaded.source().stamp.ns;
+  const std::int64_t stamp_ns = is_log ? loader().entry()->log_time.ns : loaded.source().stamp.ns;
   if (stamp_ns < -kFar_ns || stamp_ns > kFar_ns) {
     return refuse("its time is out of range");
   }
   const auto duration_ns = static_cast<std::int64_t>(std::llround(duration_s * 1e9));
   const std::int64_t first_ns = is_log ? stamp_ns - std::max<std::int64_t>(duration_ns, 0) : stamp_ns;
-  const tf::TransformBuffer& buffer = *context()->dataset.transforms();
+  const tf::TransformBuffer& buffer = *context().dataset.transforms();
   const std::string& sensor = loaded.source().frame_id;
   const std::string inertial =
       scan_settings_.deskew_frame == "auto" ? inertialFrame(buffer, sensor) : scan_settings_.deskew_frame;
@@ -116,13 +112,13 @@ std::optional<LaserScanLayer::Plan> LaserScanLayer::plan(const CloudPoints& load
   return Plan{std::move(*motion), {first_ns}};
 }
 
-std::shared_ptr<const CloudPoints> LaserScanLayer::drawnOf(const std::shared_ptr<const CloudPoints>& loaded) {
+LaserScanLayer::Shown LaserScanLayer::drawnOf(const Shown& loaded) {
   if (loaded == nullptr) {
     forget();
     return nullptr;
   }
   // Read first: what arrives meanwhile makes the next tick differ.
-  Inputs inputs{loaded, context()->dataset.transforms()->revision(), scan_settings_};
+  Inputs inputs{loaded, context().dataset.transforms()->revision(), scan_settings_};
   if (inputs_ != inputs) {
     const bool is_same_scan = inputs_ && inputs_->loaded == loaded;
     auto wanted = plan(*loaded);
@@ -134,7 +130,7 @@ std::shared_ptr<const CloudPoints> LaserScanLayer::drawnOf(const std::shared_ptr
       deskewed_ = nullptr;
       job_.reset();
       if (plan_) {
-        job_.emplace(context()->executor, context()->request_update);
+        job_.emplace(context().executor, context().request_update);
         job_->request({.payload_bytes = ++job_number_, .product = "deskewed"},
                       [loaded, plan = *plan_]() -> scenegraph::LatestJob<CloudPoints>::Result {
                         auto points = CloudPoints::make(std::make_shared<const scenegraph::PointCloud>(
@@ -163,13 +159,13 @@ std::shared_ptr<const CloudPoints> LaserScanLayer::drawnOf(const std::shared_ptr
     }
   }
   // While it is under way, what was drawn before stays.
-  return deskewed_ != nullptr ? deskewed_ : drawn() != nullptr ? drawn() : loaded;
+  return deskewed_ != nullptr ? deskewed_ : product() != nullptr ? product() : loaded;
 }
 
 scenegraph::LayerCounts LaserScanLayer::counts() const {
   auto counts = PointCloudLayer::counts();
-  const bool is_deskewed = drawn() != nullptr && drawn() == deskewed_;
-  counts.emplace_back("deskewed", is_deskewed ? drawn()->converted().points : 0);
+  const bool is_deskewed = product() != nullptr && product() == deskewed_;
+  counts.emplace_back("deskewed", is_deskewed ? product()->converted().points : 0);
   return counts;
 }
 

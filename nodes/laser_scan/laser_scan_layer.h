@@ -33,11 +33,8 @@ class LaserScanLayer final : public PointCloudLayer {
   [[nodiscard]] static std::unique_ptr<scenegraph::Layer> create(std::string_view topic);
 
   explicit LaserScanLayer(std::string_view topic);
-  void detach() override;
-  void setVisible(bool visible) override;
   /// The cloud's, "dropped" being beams without a return, and "deskewed": points that were moved.
   [[nodiscard]] scenegraph::LayerCounts counts() const override;
-  [[nodiscard]] bool isPending() const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
   std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;
@@ -45,11 +42,13 @@ class LaserScanLayer final : public PointCloudLayer {
   /// A scan that claims to take longer is left as it is.
   static constexpr double kLongestScan_s = 10.0;
 
- protected:
-  [[nodiscard]] std::shared_ptr<const CloudPoints> drawnOf(const std::shared_ptr<const CloudPoints>& loaded) override;
-  [[nodiscard]] scenegraph::Status remark() const override { return remark_; }
-
  private:
+  void close() override;
+  void clear() override;
+  [[nodiscard]] Shown drawnOf(const Shown& loaded) override;
+  [[nodiscard]] scenegraph::Status feedRemark() const override { return remark_; }
+  [[nodiscard]] bool isWorking() const override;
+
   /// All that the motion depends on.
   struct Inputs {
     std::shared_ptr<const CloudPoints> loaded;

@@ -49,13 +49,12 @@ osg::ref_ptr<osg::Geometry> makeQuad(const GridHeader& header, std::uint32_t x, 
 
 }  // namespace
 
-GridTiles::GridTiles(const std::string& name)
-    : node_(new osg::MatrixTransform),
+GridTiles::GridTiles(osg::MatrixTransform& node)
+    : node_(&node),
       scheme_(new osg::Uniform("u_color_scheme", 0)),
       alpha_(new osg::Uniform("u_alpha", 1.0F)),
       step_(new osg::Uniform("u_depth_step", 1.0F)) {
   namespace shaders = shaders::stillframe_nodes;
-  node_->setName(name);
   osg::StateSet& state = *node_->getOrCreateStateSet();
   state.setAttributeAndModes(
       scenegraph::makeProgram("occupancy_grid", shaders::k_occupancy_grid_vert, shaders::k_occupancy_grid_frag));

@@ -10,7 +10,6 @@
 #include <osg/StateSet>
 #include <osg/Uniform>
 #include <osg/ref_ptr>
-#include <string>
 #include <vector>
 
 #include "nodes/occupancy_grid/grid_tracker.h"
@@ -29,10 +28,9 @@ namespace stillframe::nodes {
 /// holds at any distance, in our reverse-Z targets and in a stock viewer. GUI thread.
 class GridTiles {
  public:
-  explicit GridTiles(const std::string& name);
+  /// Puts the grid's state on `node`, its matrix and its children.
+  explicit GridTiles(osg::MatrixTransform& node);
 
-  /// Beneath the node of the grid's frame.
-  [[nodiscard]] osg::MatrixTransform* node() const noexcept { return node_.get(); }
   /// nullptr draws nothing.
   void show(std::shared_ptr<const GridSnapshot> snapshot);
   void apply(const OccupancyGridSettings& settings);

@@ -1,0 +1,106 @@
+#include "nodes/topic_layer.h"
+
+#include "nodes/osg_math.h"
+#include "scenegraph/geometry.h"
+#include "scenegraph/placement.h"
+#include "scenegraph/store/tf_clock.h"
+
+namespace stillframe::nodes {
+
+using scenegraph::Status;
+using scenegraph::StatusLevel;
+
+void TopicLayer::attach(const scenegraph::LayerContext& context) {
+  context_.emplace(context);
+  node_ = new osg::MatrixTransform;
+  node_->setName(topic_);
+  open(*context_);
+}
+
+void TopicLayer::detach() {
+  if (!context_) {
+    return;
+  }
+  leave();
+  close();
+  node_ = nullptr;
+  context_.reset();
+}
+
+void TopicLayer::setVisible(bool visible) {
+  visible_ = visible;
+  if (!visible && context_) {
+    leave();
+  }
+}
+
+void TopicLayer::leave() {
+  clear();
+  hold(std::nullopt);
+  status_ = {};
+  bounds_.init();
+}
+
+void TopicLayer::update(const scenegraph::Tick& tick) {
+  if (!context_ || !visible_) {
+    return;
+  }
+  const auto anchor = load(tick);
+  hold(anchor ? std::optional(std::string(tf::stripLeadingSlashes(anchor->frame))) : std::nullopt);
+  Placement placement = std::unexpected(tf::LookupFailure{});
+  bounds_.init();
+  if (anchor) {
+    placement = context_->frames.fixedFromFrame(*held_frame_);
+    if (placement) {
+      placement = *placement * anchor->frame_from_data;
+    }
+    draw(placement);
+    if (const osg::BoundingBoxd extent = box(); placement && extent.valid()) {
+      for (unsigned i = 0; i < 8; ++i) {
+        const osg::Vec3d corner = extent.corner(i);
+        bounds_.expandBy(toOsg(tf::transformPoint(*placement, {corner.x(), corner.y(), corner.z()})));
+      }
+    }
+  }
+  status_ = judge(anchor.has_value(), placement);
+}
+
+void TopicLayer::hold(const std::optional<std::string>& frame) {
+  if (held_frame_ == frame) {
+    return;
+  }
+  if (held_frame_) {
+    if (osg::MatrixTransform* const parent = context_->frames.node(*held_frame_)) {
+      parent->removeChild(node_);
+    }
+    context_->frames.release(*held_frame_);
+  }
+  held_frame_ = frame;
+  if (held_frame_) {
+    context_->frames.acquire(*held_frame_).addChild(node_);
+  }
+}
+
+Status TopicLayer::judge(bool has_data, const Placement& placement) const {
+  if (has_data && !placement) {
+    return scenegraph::placementStatus(context_->frames, *held_frame_, placement.error());
+  }
+  if (!has_data || sourceStatus().level != StatusLevel::Ok) {
+    return sourceStatus();
+  }
+  return remark();
+}
+
+osg::ref_ptr<osg::Geometry> TopicLayer::addGeometry(osg::StateSet* state) const {
+  osg::ref_ptr<osg::Geometry> geometry = scenegraph::makeGeometry();
+  geometry->setName(topic_);
+  node_->setStateSet(state);
+  node_->addChild(geometry);
+  return geometry;
+}
+
+std::string TopicLayer::sampleText(const scenegraph::Entry& entry) const {
+  return "'" + topic_ + "' at " + scenegraph::timeText(entry.log_time) + ": ";
+}
+
+}  // namespace stillframe::nodes

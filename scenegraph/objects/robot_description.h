@@ -13,7 +13,8 @@ struct RobotDescription {
   static constexpr ObjectType kType = ObjectType::RobotDescription;
   std::string format;  ///< "urdf", "sdf", "mjcf" by the root element; "" unknown
   std::string text;
-  [[nodiscard]] std::size_t byteSize() const { return sizeof(*this) + text.size(); }
+  std::string file = {};  ///< that it was read from, which relative names start at; "": a message
+  [[nodiscard]] std::size_t byteSize() const { return sizeof(*this) + text.size() + file.size(); }
 };
 
 /// sensor_msgs/JointState: positions by name (rad or m). Shorter position lists leave the rest unknown.

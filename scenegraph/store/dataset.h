@@ -11,6 +11,7 @@
 #include "scenegraph/status.h"
 #include "scenegraph/store/object_cache.h"
 #include "scenegraph/store/object_store.h"
+#include "scenegraph/store/resources.h"
 #include "tf/transform_buffer.h"
 
 namespace stillframe::scenegraph {
@@ -37,6 +38,9 @@ class Dataset : public std::enable_shared_from_this<Dataset> {
   [[nodiscard]] ObjectStore& store() noexcept { return store_; }
   [[nodiscard]] const ObjectStore& store() const noexcept { return store_; }
   [[nodiscard]] ObjectCache& cache() const noexcept { return cache_; }
+  /// Attachments and folders of the files that its messages name.
+  [[nodiscard]] Resources& resources() noexcept { return resources_; }
+  [[nodiscard]] const Resources& resources() const noexcept { return resources_; }
   [[nodiscard]] const std::shared_ptr<tf::TransformBuffer>& transforms() const noexcept { return transforms_; }
 
   /// Decodes the new entries of every FrameTransforms topic and inserts them in bulk. Blocks on the disk: call it on a
@@ -64,6 +68,7 @@ class Dataset : public std::enable_shared_from_this<Dataset> {
   std::string name_;
   ObjectStore store_;
   mutable ObjectCache cache_;
+  Resources resources_;
   std::shared_ptr<tf::TransformBuffer> transforms_;
   std::unique_ptr<Impl> impl_;  // after store_ and transforms_, which it uses
 };

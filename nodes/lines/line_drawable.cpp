@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <osg/BlendFunc>
 #include <osg/PrimitiveSet>
 #include <osg/StateSet>
 #include <osg/TextureBuffer>
 
 #include "generated/stillframe_nodes/shaders.h"
-#include "nodes/osg_math.h"
+#include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
@@ -35,18 +34,17 @@ LineDrawable::LineDrawable()
     : geometry_(scenegraph::makeGeometry()),
       batch_(new osg::Uniform("u_batch", 1)),
       point_count_(new osg::Uniform("u_point_count", 0)),
-      mode_(new osg::Uniform("u_color_mode", 0)),
-      color_(new osg::Uniform("u_flat_color", osg::Vec4(1, 1, 1, 1))),
+      blends_(new osg::Uniform("u_blends", false)),
       opacity_(new osg::Uniform("u_opacity", 1.0F)),
-      value_(new osg::Uniform("u_value", osg::Vec2())),
-      colormap_(new osg::Uniform(osg::Uniform::FLOAT_VEC3, "u_colormap", static_cast<int>(Colormap::kAnchors))),
-      missing_color_(new osg::Uniform("u_missing_color", osg::Vec3())) {
+      depth_pull_(new osg::Uniform("u_depth_pull", 0.0F)),
+      coloring_(*geometry_->getOrCreateStateSet()) {
   namespace shaders = shaders::stillframe_nodes;
   osg::StateSet& state = *geometry_->getOrCreateStateSet();
   state.setAttributeAndModes(scenegraph::makeProgram("polyline", shaders::k_polyline_vert, shaders::k_polyline_frag));
-  for (const auto& uniform : {batch_, point_count_, mode_, color_, opacity_, value_, colormap_, missing_color_}) {
+  for (const auto& uniform : {batch_, point_count_, blends_, opacity_, depth_pull_}) {
     state.addUniform(uniform);
   }
+  coloring_.setFlatColor({});
   geometry_->setName("lines");
 }
 
@@ -83,7 +81,9 @@ void LineDrawable::set(const LineArrays& arrays) {
   } else if (arrays.values.valid()) {
     bind(kChannelUnit, "u_values", arrays.values, kR32f);
   }
-  mode_->set(static_cast<int>(arrays.colors.valid() ? kColors : arrays.values.valid() ? kValues : kFlat));
+  mode_ = arrays.colors.valid() ? kColors : arrays.values.valid() ? kValues : kFlat;
+  coloring_.setMode(mode_, map_);
+  blend();
 
   const std::size_t pairs = arrays.points->size() - 1;
   const std::size_t batch = std::clamp(std::bit_ceil(pairs), kLeastInBatch, kMostInBatch);
@@ -117,39 +117,32 @@ void LineDrawable::setStyle(std::size_t index, const LineStyle& style) {
 }
 
 void LineDrawable::setColor(const scenegraph::Color& color) {
-  color_->set(toOsg(color));
+  coloring_.setFlatColor(color);
   color_alpha_ = color.a;
   blend();
 }
 
 void LineDrawable::setOpacity(double opacity, bool has_alpha) {
-  opacity_->set(static_cast<float>(opacity));
   opacity_now_ = opacity;
   has_alpha_ = has_alpha;
   blend();
 }
 
-void LineDrawable::setValueColors(const Colormap& colormap, const RangeMap& map, const scenegraph::Color& missing) {
-  for (unsigned i = 0; i < Colormap::kAnchors; ++i) {
-    const Rgb& color = colormap.anchors[i];
-    colormap_->setElement(i, osg::Vec3(color[0], color[1], color[2]));
-  }
-  value_->set(osg::Vec2(static_cast<float>(map.scale), static_cast<float>(map.bias)));
-  missing_color_->set(osg::Vec3(missing.r, missing.g, missing.b));
+void LineDrawable::setDepthPull(double half_widths) { depth_pull_->set(static_cast<float>(half_widths)); }
+
+void LineDrawable::setValueColors(const std::string& colormap, const RangeMap& map, const scenegraph::Color& missing) {
+  map_ = map;
+  coloring_.setColormap(colormap);
+  coloring_.setMissingColor(missing);
+  coloring_.setMode(mode_, map_);
 }
 
 void LineDrawable::blend() {
-  osg::StateSet& state = *geometry_->getOrCreateStateSet();
-  if (opacity_now_ < 1.0 || color_alpha_ < 1.0 || has_alpha_) {
-    // Alpha of the target stays that of an opaque picture.
-    state.setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA),
-                               osg::StateAttribute::ON);
-    state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
-  } else {
-    state.removeAttribute(osg::StateAttribute::BLENDFUNC);
-    state.removeMode(GL_BLEND);
-    state.setRenderingHint(osg::StateSet::DEFAULT_BIN);
-  }
+  const double opacity = opacity_now_ * (mode_ == kFlat ? color_alpha_ : 1.0);
+  const bool blends = opacity < 1.0 || has_alpha_;
+  opacity_->set(static_cast<float>(opacity));
+  blends_->set(blends);
+  scenegraph::setBlended(*geometry_->getOrCreateStateSet(), blends);
 }
 
 }  // namespace stillframe::nodes

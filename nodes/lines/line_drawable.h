@@ -1,12 +1,12 @@
 #pragma once
 
 #include <osg/Geometry>
-#include <osg/Texture>
 #include <osg/Uniform>
 #include <osg/ref_ptr>
+#include <string>
 
+#include "nodes/coloring_state.h"
 #include "nodes/lines/line_arrays.h"
-#include "nodes/points/colormap.h"
 #include "nodes/points/value_range.h"
 #include "scenegraph/settings.h"
 
@@ -35,26 +35,29 @@ class LineDrawable {
   void setColor(const scenegraph::Color& color);
   /// 1 hides what is behind. `has_alpha`: the points' own alpha counts, which needs blending too.
   void setOpacity(double opacity, bool has_alpha = false);
-  /// Colours of Channel::Values: `map` takes a value to 0..1 over the colormap.
-  void setValueColors(const Colormap& colormap, const RangeMap& map, const scenegraph::Color& missing);
+  /// Draws as if so many half widths nearer, so that both halves of a line that lies on a surface are seen: 4 does
+  /// for surfaces that are seen under 15 degrees and more. 0 is exact.
+  void setDepthPull(double half_widths);
+  /// Colours of Channel::Values: `map` takes a value to 0..1 over the colormap of that name.
+  void setValueColors(const std::string& colormap, const RangeMap& map, const scenegraph::Color& missing);
 
  private:
+  void blend();
   void bind(unsigned unit, const char* sampler, osg::Array* texels, GLint format);
 
   osg::ref_ptr<osg::Geometry> geometry_;
   osg::ref_ptr<osg::Vec4Array> styles_;
   osg::ref_ptr<osg::Uniform> batch_;
   osg::ref_ptr<osg::Uniform> point_count_;
-  osg::ref_ptr<osg::Uniform> mode_;
-  osg::ref_ptr<osg::Uniform> color_;
+  osg::ref_ptr<osg::Uniform> blends_;
   osg::ref_ptr<osg::Uniform> opacity_;
-  osg::ref_ptr<osg::Uniform> value_;
-  osg::ref_ptr<osg::Uniform> colormap_;
-  osg::ref_ptr<osg::Uniform> missing_color_;
+  osg::ref_ptr<osg::Uniform> depth_pull_;
+  ColoringState coloring_;
+  int mode_ = 0;
+  RangeMap map_;
   double opacity_now_ = 1.0;
   double color_alpha_ = 1.0;
   bool has_alpha_ = false;
-  void blend();
 };
 
 }  // namespace stillframe::nodes

@@ -1,16 +1,12 @@
 #version 450 compatibility
 #include "common.glsl"
+#include "coloring.glsl"
 // Segments of lines. A fragment belongs to the segment when it is within the radius of it, and not within that of the
-// segment before: joints are round, without gaps, and blended once. In: what polyline.vert puts out; u_value maps a value
-// to 0..1 over the colormap. Along the segment colours and values go by the distance in space, not on the screen.
+// segment before: joints are round, without gaps, and blended once. In: what polyline.vert puts out. Along the
+// segment colours and values go by the distance in space, not on the screen.
 const int kValues = 2;
-const float kMissing = -2.9e38;
 const float kMargin = 0.02;  // px; the rectangle's edges decide, by the rules of rasterisation
 
-uniform int u_color_mode;
-uniform vec2 u_value;
-uniform vec3 u_colormap[33];
-uniform vec3 u_missing_color;
 uniform float u_opacity;
 in vec2 v_place;
 flat in vec2 v_end;
@@ -20,12 +16,6 @@ flat in vec2 v_depths;
 flat in vec4 v_start_color;
 flat in vec4 v_end_color;
 flat in vec2 v_values;
-
-vec3 mapped(float t) {
-  float x = clamp(t, 0.0, 1.0) * 32.0;
-  int below = min(int(x), 31);
-  return mix(u_colormap[below], u_colormap[below + 1], x - float(below));
-}
 
 // Where along the way from `from` the nearest point to `place` is.
 float nearest(vec2 place, vec2 from, vec2 way) {
@@ -49,9 +39,8 @@ void main() {
   float in_space = t * v_depths.x / mix(v_depths.y, v_depths.x, t);
   vec4 color = mix(v_start_color, v_end_color, in_space);
   if (u_color_mode == kValues) {
-    bool is_missing = min(v_values.x, v_values.y) < kMissing;
-    float value = mix(v_values.x, v_values.y, in_space);
-    color = vec4(is_missing ? u_missing_color : mapped(value * u_value.x + u_value.y), 1.0);
+    bool is_missing = sfIsMissing(min(v_values.x, v_values.y));
+    color = vec4(is_missing ? u_missing_color : sfValueColor(mix(v_values.x, v_values.y, in_space)), 1.0);
   }
   color.a *= u_opacity;
   gl_FragColor = sfOutput(color);

@@ -1,5 +1,6 @@
 #version 450 compatibility
 #include "common.glsl"
+#include "coloring.glsl"
 // Segments of lines as rectangles on the screen, four vertices each, u_batch segments an instance. gl_Vertex only
 // carries the bound. In: u_points, metres in the source frame less the origin, and w = 4 * style + flags (1: the segment
 // that ends here is drawn, 2: a joint); u_styles, width and 1 when it is in metres; u_colors, sRGB; u_values. A segment
@@ -9,7 +10,6 @@ const int kDrawn = 1;
 const int kRound = 2;
 const int kColors = 1;
 const int kValues = 2;
-const float kMissing = -2.9e38;
 const float kGuard = 8.0;  // cut this many half screens from the middle, so that pixels stay exact in float
 const vec4 kNowhere = vec4(2.0, 2.0, 2.0, 1.0);
 
@@ -19,8 +19,8 @@ uniform samplerBuffer u_colors;
 uniform samplerBuffer u_values;
 uniform int u_batch;
 uniform int u_point_count;
-uniform int u_color_mode;
-uniform vec4 u_flat_color;
+uniform float u_depth_pull;  // half widths
+uniform bool u_blends;  // opaque lines may cover their joints twice
 
 out vec2 v_place;        // px from the start
 flat out vec2 v_end;     // px from the start
@@ -36,6 +36,9 @@ flat out vec2 v_values;
 vec2 visiblePart(vec4 a, vec4 b) {
   vec3 bound_a = vec3(kGuard, kGuard, 1.0) * a.w;
   vec3 bound_b = vec3(kGuard, kGuard, 1.0) * b.w;
+  if (all(lessThanEqual(abs(a.xyz), bound_a)) && all(lessThanEqual(abs(b.xyz), bound_b))) {
+    return vec2(0.0, 1.0);
+  }
   vec3 from[2] = vec3[2](bound_a - a.xyz, bound_a + a.xyz);
   vec3 to[2] = vec3[2](bound_b - b.xyz, bound_b + b.xyz);
   vec2 part = vec2(0.0, 1.0);
@@ -54,6 +57,21 @@ vec2 visiblePart(vec4 a, vec4 b) {
     }
   }
   return part;
+}
+
+// Depth of a point in clip space, nearer by so many pixels as wide as they are there.
+float depthOf(vec4 point, float pull_px, float half_height_px) {
+  float depth = point.z / point.w;
+  if (pull_px > 0.0) {
+    float pull = pull_px / (gl_ProjectionMatrix[1][1] * half_height_px);
+    if (gl_ProjectionMatrix[2][3] != 0.0) {
+      float away = point.w * (1.0 - min(pull, 0.5));
+      depth = gl_ProjectionMatrix[3][2] / away - gl_ProjectionMatrix[2][2];
+    } else {
+      depth += gl_ProjectionMatrix[2][2] * pull;
+    }
+  }
+  return clamp(depth, -1.0, 1.0);
 }
 
 void main() {
@@ -102,7 +120,7 @@ void main() {
   v_end = way;
   v_radii.xy = vec2(radius_a, radius_b);
   v_depths = vec2(a.w, b.w);
-  if ((start_flags & (kDrawn | kRound)) == (kDrawn | kRound) && !is_start_cut) {
+  if (u_blends && (start_flags & (kDrawn | kRound)) == (kDrawn | kRound) && !is_start_cut) {
     vec4 point = texelFetch(u_points, start - 1);
     vec4 before = gl_ModelViewProjectionMatrix * vec4(point.xyz, 1.0);
     vec2 seen = visiblePart(before, a);
@@ -120,13 +138,14 @@ void main() {
     v_start_color = mix(color_a, color_b, part.x);
     v_end_color = mix(color_a, color_b, part.y);
   } else {
-    v_start_color = v_end_color = u_flat_color;
+    v_start_color = v_end_color = vec4(u_flat_color, 1.0);
   }
   if (u_color_mode == kValues) {
     float value_a = texelFetch(u_values, start).r;
     float value_b = texelFetch(u_values, start + 1).r;
-    v_values = min(value_a, value_b) < kMissing ? vec2(-3e38)
-                                                : vec2(mix(value_a, value_b, part.x), mix(value_a, value_b, part.y));
+    v_values = sfIsMissing(min(value_a, value_b))
+                   ? vec2(-3e38)
+                   : vec2(mix(value_a, value_b, part.x), mix(value_a, value_b, part.y));
   }
 
   int corner = gl_VertexID & 3;
@@ -135,6 +154,6 @@ void main() {
   vec2 place = is_end ? way + along * (is_end_round ? radius_b : 0.0) : -along * (is_start_round ? radius_a : 0.0);
   place += side * max(radius_a, radius_b) * vec2(-along.y, along.x);
   v_place = place;
-  float depth = is_end ? b.z / b.w : a.z / a.w;
+  float depth = depthOf(is_end ? b : a, u_depth_pull * (is_end ? radius_b : radius_a), half_screen.y);
   gl_Position = vec4((at + place) / half_screen, depth, 1.0);
 }

@@ -8,8 +8,11 @@
 #include <osgDB/ReadFile>
 #include <set>
 
+#include "nodes/line_state.h"
 #include "nodes/lines/line_drawable.h"
+#include "nodes/points/colormap.h"
 #include "scenegraph/export/osgt_export.h"
+#include "scenegraph/geometry.h"
 #include "tests/nodes/scene_picture.h"
 #include "tests/support/plain_viewer.h"
 
@@ -208,7 +211,7 @@ TEST_F(LinePicture, ColoursByPointAndByValue) {
   valued.end();
   lines_.set(valued.take());
   const nodes::Colormap& viridis = *nodes::findColormap("viridis");
-  lines_.setValueColors(viridis, nodes::mapRange({100.0, 300.0}), {.r = 1.0F, .g = 0.0F, .b = 1.0F, .a = 1.0F});
+  lines_.setValueColors("viridis", nodes::mapRange({100.0, 300.0}), {.r = 1.0F, .g = 0.0F, .b = 1.0F, .a = 1.0F});
   picture = drawLines();
   for (const auto& [x, t] : {std::pair{1, 0.0}, {75, 0.25}, {148, 0.5}}) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -231,6 +234,30 @@ TEST_F(LinePicture, DrawsManyStripsOfManyStylesInOneCall) {
   EXPECT_EQ(drawnPixels(picture), 45 * 160 + 4 * 180);
   lines_.clear();
   EXPECT_EQ(drawnPixels(drawLines()), 0);
+}
+
+TEST_F(LinePicture, ShowsBothHalvesOnASurfaceWhenPulled) {
+  osg::ref_ptr<osg::Geometry> ground = scenegraph::makeGeometry();
+  osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
+  corners->asVector() = {{-50, -50, 0}, {50, -50, 0}, {-50, 50, 0}, {50, 50, 0}};
+  ground->setVertexArray(corners);
+  ground->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, 4));
+  nodes::LineState black;
+  black.setColor({.r = 0.0F, .g = 0.0F, .b = 0.0F, .a = 1.0F});
+  ground->setStateSet(black.stateSet());
+  root_->addChild(ground);
+  setLine(Kind::Strip, {{-50, 0, 0}, {50, 0, 0}}, {.width = 10.0});
+  const scenegraph::CameraView slanted{.eye_from_fixed = scenegraph::lookAt({0, -10, 5}, {0, 0, 0}, {0, 0, 1})};
+  scenegraph::CameraView level = slanted;
+  level.is_orthographic = true;
+  for (const auto& view : {slanted, level}) {
+    lines_.setDepthPull(0.0);
+    EXPECT_LE(drawnInColumn(drawLines(view), 100), 6);
+    lines_.setDepthPull(4.0);
+    EXPECT_EQ(drawnInColumn(drawLines(view), 100), 10);
+  }
+  setLine(Kind::Strip, {{-50, 0, -1}, {50, 0, -1}}, {.width = 10.0});
+  EXPECT_EQ(drawnPixels(drawLines(slanted)), 0) << "what lies clearly behind stays hidden";
 }
 
 TEST_F(LinePicture, LooksTheSameInAPlainViewer) {

@@ -1,16 +1,13 @@
-# stillframe_fuzzer(NAME SOURCES ... LINKS ... [SEEDS DIR] [MAX_BYTES N] [SECONDS_PER_INPUT N]): a libFuzzer target and its short run in CTest.
+# stillframe_fuzzer(NAME SOURCES ... LINKS ... [SEEDS DIR] [MAX_BYTES N]): a libFuzzer target and its short run in CTest.
 #
 # The run is bounded by STILLFRAME_FUZZ_SECONDS and its seed is fixed; inputs found on the way land in the build folder. For a long run:
 # `build-asan/bin/NAME CORPUS_DIR [SEEDS_DIR]`.
 set(STILLFRAME_FUZZ_SECONDS 20 CACHE STRING "Seconds of each fuzz target's run under CTest")
 
 function(stillframe_fuzzer name)
-  cmake_parse_arguments(ARG "" "SEEDS;MAX_BYTES;SECONDS_PER_INPUT" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "SEEDS;MAX_BYTES" "SOURCES;LINKS" ${ARGN})
   if(NOT ARG_MAX_BYTES)
     set(ARG_MAX_BYTES 65536)
-  endif()
-  if(NOT ARG_SECONDS_PER_INPUT)
-    set(ARG_SECONDS_PER_INPUT 10)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   add_dependencies(stillframe_tests ${name})
@@ -23,6 +20,6 @@ function(stillframe_fuzzer name)
   endif()
   add_test(NAME fuzz.${name}
            COMMAND ${name} -seed=1 -max_total_time=${STILLFRAME_FUZZ_SECONDS} -max_len=${ARG_MAX_BYTES} -rss_limit_mb=2048
-                   -timeout=${ARG_SECONDS_PER_INPUT} "-artifact_prefix=${corpus}-" "${corpus}" ${ARG_SEEDS})
+                   -timeout=10 "-artifact_prefix=${corpus}-" "${corpus}" ${ARG_SEEDS})
   set_tests_properties(fuzz.${name} PROPERTIES LABELS "sanitize" TIMEOUT 300)
 endfunction()

@@ -83,11 +83,12 @@ bool writeDracoCloud(const std::filesystem::path& path, int method, bool is_quan
   return encoder.EncodeToBuffer(&buffer).ok() && writeDraco(path, buffer);
 }
 
-bool writeDracoMesh(const std::filesystem::path& path, int method) {
+bool writeDracoMesh(const std::filesystem::path& path, int method, int speed = 5) {
   constexpr int kFaces = 12;
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(kFaces);
   const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  const int texture = builder.AddAttribute(draco::GeometryAttribute::TEX_COORD, 2, draco::DT_FLOAT32);
   for (int i = 0; i < kFaces; ++i) {
     const auto at = static_cast<float>(i);
     const std::array<float, 3> a = {at, 0, 0};
@@ -95,11 +96,16 @@ bool writeDracoMesh(const std::filesystem::path& path, int method) {
     const std::array<float, 3> c = {at, 1, at / 2};
     builder.SetAttributeValuesForFace(position, draco::FaceIndex(static_cast<unsigned>(i)), a.data(), b.data(),
                                       c.data());
+    const std::array<float, 2> uv = {at / kFaces, 0.5F};
+    builder.SetAttributeValuesForFace(texture, draco::FaceIndex(static_cast<unsigned>(i)), a.data(), uv.data(),
+                                      b.data());
   }
   const auto mesh = builder.Finalize();
   draco::Encoder encoder;
   encoder.SetEncodingMethod(method);
+  encoder.SetSpeedOptions(speed, speed);
   encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 8);
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::TEX_COORD, 8);
   draco::EncoderBuffer buffer;
   return encoder.EncodeMeshToBuffer(*mesh, &buffer).ok() && writeDraco(path, buffer);
 }
@@ -119,6 +125,7 @@ int main(int argument_count, char** arguments) {
       writeDracoCloud(folder / "draco" / "lossless", draco::POINT_CLOUD_SEQUENTIAL_ENCODING, false) &&
       writeDracoCloud(folder / "draco" / "tree", draco::POINT_CLOUD_KD_TREE_ENCODING, true) &&
       writeDracoMesh(folder / "draco" / "mesh_sequential", draco::MESH_SEQUENTIAL_ENCODING) &&
-      writeDracoMesh(folder / "draco" / "mesh_edgebreaker", draco::MESH_EDGEBREAKER_ENCODING);
+      writeDracoMesh(folder / "draco" / "mesh_edgebreaker", draco::MESH_EDGEBREAKER_ENCODING) &&
+      writeDracoMesh(folder / "draco" / "mesh_textured", draco::MESH_EDGEBREAKER_ENCODING, 0);
   return is_written ? 0 : 1;
 }

@@ -31,9 +31,10 @@ draco::Status run(DracoBudget& budget, draco::DecoderBuffer& buffer, Geometry& g
 
 CodecError explain(const draco::Status& status, const DracoBudget& budget, std::size_t bytes) {
   if (const auto& claim = budget.refused()) {
-    return {CodecErrorCode::ImplausibleSize, "the Draco stream claims " + std::to_string(claim->points) +
-                                                 " points and " + std::to_string(claim->faces) + " faces in " +
-                                                 std::to_string(bytes) + " bytes"};
+    const std::string what = claim->orientations > 0 ? std::to_string(claim->orientations) + " texture orientations of "
+                                                     : std::to_string(claim->points) + " points and ";
+    return {CodecErrorCode::ImplausibleSize, "the Draco stream claims " + what + std::to_string(claim->faces) +
+                                                 " faces in " + std::to_string(bytes) + " bytes"};
   }
   const bool is_version = status.code() == draco::Status::UNSUPPORTED_VERSION ||
                           status.code() == draco::Status::UNKNOWN_VERSION ||

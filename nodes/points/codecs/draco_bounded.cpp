@@ -31,6 +31,21 @@ bool DracoBudget::allows(const std::optional<DracoClaim>& claim) {
   return true;
 }
 
+bool DracoBudget::allowsOrientations(draco::PredictionSchemeMethod method, draco::DecoderBuffer buffer,
+                                     std::uint64_t faces) {
+  std::optional<std::uint32_t> count;
+  if (std::uint32_t plain = 0; method == draco::MESH_PREDICTION_TEX_COORDS_PORTABLE && buffer.Decode(&plain)) {
+    count = plain;
+  } else if (method == draco::MESH_PREDICTION_TEX_COORDS_DEPRECATED) {
+    count = readCount(buffer, 2, 2);
+  }
+  if (count && *count > 3 * faces) {
+    refused_ = DracoClaim{.points = 0, .faces = faces, .orientations = *count};
+    return false;
+  }
+  return true;  // another prediction; or cut off, which libdraco notices
+}
+
 bool DracoBudget::allowsValues(const draco::PointCloud& cloud) {
   std::uint64_t point_bytes = 0;
   for (int i = 0; i < cloud.num_attributes(); ++i) {

@@ -14,6 +14,7 @@ namespace stillframe::nodes {
 struct DracoClaim {
   std::uint64_t points = 0;
   std::uint64_t faces = 0;
+  std::uint64_t orientations = 0;  ///< bits that steer the prediction of texture coordinates
 };
 
 /// Whether libdraco may make room for something, and what was refused.
@@ -26,6 +27,9 @@ class DracoBudget {
   [[nodiscard]] bool allows(const std::optional<DracoClaim>& claim);
   /// All attributes of a cloud whose number of points is known by now.
   [[nodiscard]] bool allowsValues(const draco::PointCloud& cloud);
+  /// The bits of a prediction that come next: at most one for each corner of a face.
+  [[nodiscard]] bool allowsOrientations(draco::PredictionSchemeMethod method, draco::DecoderBuffer buffer,
+                                        std::uint64_t faces);
   /// The claim that was too large.
   [[nodiscard]] const std::optional<DracoClaim>& refused() const noexcept { return refused_; }
 
@@ -33,6 +37,10 @@ class DracoBudget {
   std::uint64_t max_bytes_;
   std::optional<DracoClaim> refused_;
 };
+
+/// Puts decoders that ask the budget in the place of those that libdraco made for the attributes of a mesh, before any
+/// of them has read a value.
+void boundPredictions(draco::MeshDecoder& decoder, DracoBudget& budget);
 
 /// Reads the counts that come next in a copy of the stream's buffer.
 [[nodiscard]] std::optional<DracoClaim> peekPointCloud(draco::DecoderBuffer buffer);
@@ -66,6 +74,7 @@ class BoundedMeshDecoder final : public Base {
  protected:
   bool DecodeConnectivity() override { return budget_.allows(kPeek(*this->buffer())) && Base::DecodeConnectivity(); }
   bool DecodeAllAttributes() override {
+    boundPredictions(*this, budget_);
     return budget_.allowsValues(*this->point_cloud()) && Base::DecodeAllAttributes();
   }
 

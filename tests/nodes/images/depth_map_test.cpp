@@ -55,7 +55,7 @@ TEST(DepthMap, ReadsBothByteOrdersAndPaddedRows) {
 
 TEST(DepthMap, ReadsCompressedDepthOfBothKinds) {
   const std::vector<std::uint16_t> values = {0, 0, 1000, 1003, 998, 0, 65535, 1, 0};
-  for (const auto& body : {pngOf(3, values), rvlOf(3, values)}) {
+  for (const auto& body : {sample::writeGrayPng(3, values), sample::writeRvl(3, values)}) {
     const auto map = decodeDepth(compressedDepth(body));
     ASSERT_TRUE(map) << map.error().message;
     EXPECT_EQ(map->width, 3U);
@@ -100,7 +100,7 @@ TEST(DepthMap, RefusesCorruptCompressedDepth) {
     const auto map = decodeDepth(image);
     return map ? std::string("Ok") : std::string(toString(map.error().code));
   };
-  for (const auto& body : {pngOf(8, values), rvlOf(8, values)}) {
+  for (const auto& body : {sample::writeGrayPng(8, values), sample::writeRvl(8, values)}) {
     const Image whole = compressedDepth(body);
     ASSERT_EQ(codeOf(whole), "Ok");
     for (std::size_t size = 0; size + 1 < whole.data.bytes.size(); ++size) {
@@ -111,18 +111,18 @@ TEST(DepthMap, RefusesCorruptCompressedDepth) {
     }
   }
   // Sizes that lie, in the PNG's header and in that of RVL.
-  auto huge = rvlOf(8, values);
+  auto huge = sample::writeRvl(8, values);
   std::memset(huge.data(), 0xFF, 8);
   EXPECT_EQ(codeOf(compressedDepth(huge)), "ImageTooLarge");
   std::memset(huge.data(), 0, 8);
   huge[1] = huge[5] = std::byte{0x20};  // 8192 x 8192
   EXPECT_EQ(codeOf(compressedDepth(huge)), "CorruptImage");
-  auto wrong = pngOf(8, values);
+  auto wrong = sample::writeGrayPng(8, values);
   wrong[20] = std::byte{0x55};  // the height, whose checksum no longer fits
   EXPECT_EQ(codeOf(compressedDepth(wrong)), "CorruptImage");
-  EXPECT_EQ(codeOf(compressedDepth(rgbPngOf(2, std::vector<std::uint8_t>(12, 1)))), "CorruptImage");
+  EXPECT_EQ(codeOf(compressedDepth(sample::writeRgbPng(2, std::vector<std::uint8_t>(12, 1)))), "CorruptImage");
   for (const float a : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN()}) {
-    EXPECT_EQ(codeOf(compressedDepth(pngOf(8, values), "32FC1", a, 1.0F)), "CorruptImage");
+    EXPECT_EQ(codeOf(compressedDepth(sample::writeGrayPng(8, values), "32FC1", a, 1.0F)), "CorruptImage");
   }
 }
 
@@ -130,7 +130,7 @@ TEST(ColorImage, ReadsRawPngAndJpeg) {
   const std::vector<std::uint8_t> rgb(std::size_t{16} * 16 * 3, 100);
   Image image;
   image.encoding = "jpeg";
-  setData(image, jpegOf(16, rgb));
+  setData(image, sample::writeJpeg(16, rgb));
   const auto jpeg = decodeColor(image);
   ASSERT_TRUE(jpeg) << jpeg.error().message;
   EXPECT_EQ(jpeg->width, 16U);
@@ -139,7 +139,7 @@ TEST(ColorImage, ReadsRawPngAndJpeg) {
   image.data.bytes = image.data.bytes.first(image.data.bytes.size() / 2);
   EXPECT_FALSE(decodeColor(image));
   image.encoding = "png";
-  setData(image, rgbPngOf(1, {1, 2, 3, 4, 5, 6}));
+  setData(image, sample::writeRgbPng(1, {1, 2, 3, 4, 5, 6}));
   const auto png = decodeColor(image);
   ASSERT_TRUE(png) << png.error().message;
   EXPECT_THAT(png->rgba, ElementsAre(1, 2, 3, 255, 4, 5, 6, 255));

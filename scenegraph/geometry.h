@@ -16,6 +16,11 @@ namespace stillframe::scenegraph {
 /// For geometry whose vertices do not tell where it is drawn (instances): `bound` counts besides the vertices' own.
 [[nodiscard]] osg::ref_ptr<osg::Geometry> makeGeometry(const osg::BoundingBox& bound);
 
+/// Node mask of geometries that a rasteriser of points may draw in OpenGL's stead: opaque points whose vertices are
+/// drawn as they are, with the uniforms of nodes/point_cloud's shader. OpenGL draws them too where it is not told
+/// otherwise, in a stock viewer for one.
+inline constexpr osg::Node::NodeMask kOpaquePoints = 0x2;
+
 /// The program of these two shaders, the same object for every caller with the same name and text, for as long as
 /// somebody uses it: OSG then sorts by it and compiles it once a context. Any thread.
 ///

@@ -21,7 +21,7 @@ void main() {
   if (u_size_in_metres) {
     size_px *= 0.5 * u_viewport_height_px * gl_ProjectionMatrix[1][1] / max(gl_Position.w, 1e-6);
   }
-  gl_PointSize = clamp(size_px, 1.0, 1024.0);
+  gl_PointSize = clamp(size_px, 1.0, 255.0);  // what every driver can do
 
   vec3 color = u_flat_color;
   if (u_color_mode == kRgb) {

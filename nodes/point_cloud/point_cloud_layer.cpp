@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nodes/osg_math.h"
+#include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
 
@@ -75,6 +76,7 @@ void PointCloudLayer::show() {
 void PointCloudLayer::draw(const Placement& fixed_from_points) {
   if (takeSettings()) {
     state_.apply(chosen());
+    geometry_->setNodeMask(chosen().opacity < 1.0 ? ~0U : scenegraph::kOpaquePoints);
   }
   const ColorChoice choice = chooseColor(chosen().color_field, *reference(), *product());
   if (choice != choice_) {

@@ -16,4 +16,13 @@ namespace stillframe::scenegraph {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) | not_finite | sign);
 }
 
+/// The nearest half float, ties to even, of a value of 0 to 65504: what a target of half floats makes of a colour.
+[[nodiscard]] inline std::uint16_t halfFromFloat(float value) noexcept {
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+  const std::uint32_t normal = (bits - 0x38000000U + 0xfffU + ((bits >> 13U) & 1U)) >> 13U;
+  // Below 2^-14 adding 1/2 leaves the subnormal's bits, rounded, at the lower end.
+  const std::uint32_t subnormal = std::bit_cast<std::uint32_t>(value + 0.5F) - 0x3f000000U;
+  return static_cast<std::uint16_t>(value < 0x1p-14F ? subnormal : normal);
+}
+
 }  // namespace stillframe::scenegraph

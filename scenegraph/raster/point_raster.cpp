@@ -11,6 +11,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "scenegraph/pipeline/half_float.h"
+#include "scenegraph/raster/point_shading.h"
+
 namespace stillframe::scenegraph {
 namespace {
 
@@ -25,7 +28,7 @@ namespace {
 constexpr std::size_t kBlock = 256;                     // points projected at a time: stays in the first cache
 constexpr std::size_t kPiece = std::size_t{64} * 1024;  // points a task
 constexpr std::int32_t kSubpixels = 256;
-constexpr float kMaxSizePx = 1024.0F;  // as in the shader of the points
+constexpr float kMaxSizePx = 255.0F;  // as in the shader of the points
 
 /// A batch in the numbers that the inner loop needs.
 struct Projection {
@@ -76,15 +79,23 @@ void project(Block& block, std::size_t count, const Projection& projection) {
   }
 }
 
-/// Pixels whose centres lie in [centre - size / 2, centre + size / 2), all in 1/256 of a pixel: first and end.
+/// Pixels of one axis: first and end.
 struct Span {
   std::int32_t first;
   std::int32_t end;
 };
 
-Span covered(std::int32_t centre, std::int32_t size, std::int32_t limit_px) {
+/// Of a disc: pixels whose centres lie within `size` about the centre, all in 1/256 of a pixel.
+Span coveredByDisc(std::int32_t centre, std::int32_t size, std::int32_t limit_px) {
   const std::int32_t low = centre - kSubpixels / 2 - size / 2;
   return {std::max((low + kSubpixels - 1) >> 8, 0), std::min((low + size + kSubpixels - 1) >> 8, limit_px)};
+}
+
+/// Of a square: OpenGL moves it on to the grid of pixels (4.6, 14.4: an odd width to a pixel's centre, an even one to a
+/// corner).
+Span coveredBySquare(std::int32_t centre, std::int32_t size_px, std::int32_t limit_px) {
+  const std::int32_t first = ((centre + (size_px % 2 == 0 ? kSubpixels / 2 : 0)) >> 8) - size_px / 2;
+  return {std::max(first, 0), std::min(first + size_px, limit_px)};
 }
 
 /// The picture that all threads write into.
@@ -93,19 +104,28 @@ class Canvas {
   Canvas(std::uint64_t* keys, int width_px, int height_px) : keys_(keys), width_px_(width_px), height_px_(height_px) {}
 
   void onePixel(std::int32_t x, std::int32_t y, std::uint64_t key) const {
-    const std::int32_t column = (x - 1) >> 8;  // (low + 255) >> 8 for a size of one pixel
-    const std::int32_t row = (y - 1) >> 8;
-    if ((column >= 0) & (row >= 0)) {
-      store(static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px_) + static_cast<std::size_t>(column),
-            key);
+    const std::int32_t column = std::min(x >> 8, width_px_ - 1);
+    const std::int32_t row = std::min(y >> 8, height_px_ - 1);
+    store(static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px_) + static_cast<std::size_t>(column), key);
+  }
+
+  void square(std::int32_t x, std::int32_t y, float size_px, std::uint64_t key) const {
+    const auto size = static_cast<std::int32_t>(std::lrint(size_px));
+    const Span columns = coveredBySquare(x, size, width_px_);
+    const Span rows = coveredBySquare(y, size, height_px_);
+    for (std::int32_t row = rows.first; row < rows.end; ++row) {
+      const std::size_t begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px_);
+      for (std::int32_t column = columns.first; column < columns.end; ++column) {
+        store(begin + static_cast<std::size_t>(column), key);
+      }
     }
   }
 
-  void square(std::int32_t x, std::int32_t y, float size_px, bool is_round, std::uint64_t key) const {
+  void disc(std::int32_t x, std::int32_t y, float size_px, std::uint64_t key) const {
     const auto size = static_cast<std::int32_t>(size_px * static_cast<float>(kSubpixels) + 0.5F);
-    const Span columns = covered(x, size, width_px_);
-    const Span rows = covered(y, size, height_px_);
-    const std::int64_t reach = is_round ? std::int64_t{size} * size : INT64_MAX;
+    const Span columns = coveredByDisc(x, size, width_px_);
+    const Span rows = coveredByDisc(y, size, height_px_);
+    const std::int64_t reach = std::int64_t{size} * size;
     for (std::int32_t row = rows.first; row < rows.end; ++row) {
       const std::int64_t from_y = 2 * (std::int64_t{row} * kSubpixels + kSubpixels / 2 - y);
       const std::size_t begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px_);
@@ -144,7 +164,11 @@ void scatter(const Block& block, std::span<const std::uint32_t> numbers, const P
     } else {
       const float scale = projection.is_size_in_metres ? std::min(block.per_w[i], 1e6F) : 1.0F;
       const float size_px = std::clamp(projection.size * scale, 1.0F, kMaxSizePx);
-      canvas.square(block.window_x[i], block.window_y[i], size_px, projection.is_round, key);
+      if (projection.is_round) {
+        canvas.disc(block.window_x[i], block.window_y[i], size_px, key);
+      } else {
+        canvas.square(block.window_x[i], block.window_y[i], size_px, key);
+      }
     }
   }
 }
@@ -269,6 +293,30 @@ void PointRaster::draw(std::span<const PointBatch> batches, const PassRange& pas
     });
     first_number += static_cast<std::uint32_t>(count);
   }
+}
+
+void PointRaster::resolve(const PointShading& shading, std::span<std::uint16_t> rgba, std::span<float> depth) const {
+  constexpr std::uint16_t kOne = 0x3c00;
+  constexpr std::size_t kPixels = 16384;
+  const std::size_t count = std::min({keys_.size(), rgba.size() / 4, depth.size()});
+  const auto resolvePixels = [&](const tbb::blocked_range<std::size_t>& pixels) {
+    for (std::size_t pixel = pixels.begin(); pixel < pixels.end(); ++pixel) {
+      const std::uint64_t key = keys_[pixel];
+      depth[pixel] = PointKey::depth(key);
+      std::uint16_t* const out = &rgba[4 * pixel];
+      if (key == 0) {
+        std::fill_n(out, 4, std::uint16_t{0});
+        continue;
+      }
+      const glm::vec3 color = shading.linearColor(PointKey::point(key));
+      out[0] = halfFromFloat(color.r);
+      out[1] = halfFromFloat(color.g);
+      out[2] = halfFromFloat(color.b);
+      out[3] = kOne;
+    }
+  };
+  threads_->arena.execute(
+      [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kPixels), resolvePixels); });
 }
 
 }  // namespace stillframe::scenegraph

@@ -11,11 +11,13 @@
 
 namespace stillframe::scenegraph {
 
+class PointShading;
+
 /// Points as they are rasterised: what a GL_POINTS draw would be given, less the colours.
 struct PointBatch {
   std::span<const float> positions;  ///< x, y, z of one point after another, metres in the points' own frame
   glm::dmat4 clip_from_points{1.0};  ///< OpenGL clip space, z from 0 to w, reverse-Z (1 near, 0 at infinity)
-  /// Edge of the square, pixels; in metres, what metres become at w = 1. Clamped to 1..1024 pixels as the shader does.
+  /// Edge of the square, pixels; in metres, what metres become at w = 1. Clamped to 1..255 pixels as the shader does.
   float size = 1.0F;
   bool is_size_in_metres = false;
   bool is_round = false;  ///< a disc instead of the square
@@ -56,6 +58,10 @@ class PointRaster {
   void begin(int width_px, int height_px);
   /// Draws these passes of all batches (at most 2^32 - 1 points) on top of what is there.
   void draw(std::span<const PointBatch> batches, const PassRange& passes = {});
+
+  /// The picture in colour: linear red, green, blue and alpha 1 as half floats, and reverse-Z depth; all 0 where
+  /// nothing was drawn. One pixel a key; `shading` is that of the batches drawn.
+  void resolve(const PointShading& shading, std::span<std::uint16_t> rgba, std::span<float> depth) const;
 
   /// One key a pixel, bottom row first.
   [[nodiscard]] std::span<const std::uint64_t> keys() const noexcept { return keys_; }

@@ -14,5 +14,13 @@ TEST(HalfFloat, IsImathsFloatForEveryPattern) {
   }
 }
 
+TEST(HalfFloat, RoundsAsImathDoes) {
+  for (std::uint32_t bits = 0; bits < std::bit_cast<std::uint32_t>(65504.0F); bits += 977) {
+    const auto value = std::bit_cast<float>(bits);
+    ASSERT_EQ(halfFromFloat(value), Imath::half(value).bits()) << value;
+  }
+  EXPECT_EQ(halfFromFloat(65504.0F), 0x7bff);
+}
+
 }  // namespace
 }  // namespace stillframe::scenegraph

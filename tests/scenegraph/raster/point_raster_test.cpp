@@ -81,15 +81,28 @@ struct Model {
 
   template <typename Visit>
   void visit(double x, double y, const PointBatch& batch, const Visit& visit_pixel) const {
-    const double half = 0.5 * std::max(batch.size, 1.0F);
+    const double size = std::max(1.0, batch.is_round ? static_cast<double>(batch.size) : std::nearbyint(batch.size));
     const double slack = 1.0 / 200.0;
+    // A square is moved on to the grid of pixels, an odd one to a pixel's centre, an even one to a corner.
+    const auto moved = [&](double at) {
+      return std::lround(size) % 2 == 0 ? std::floor(at + 0.5) : std::floor(at) + 0.5;
+    };
+    const auto covers = [&](double at, int pixel) { return std::abs(pixel + 0.5 - moved(at)) < 0.5 * size; };
     for (int row = 0; row < height_px; ++row) {
       for (int column = 0; column < width_px; ++column) {
-        const double from_x = column + 0.5 - x;
-        const double from_y = row + 0.5 - y;
-        const double reach = batch.is_round ? std::hypot(from_x, from_y) : std::max(std::abs(from_x), std::abs(from_y));
-        if (reach <= half + slack) {
-          visit_pixel(static_cast<std::size_t>(row * width_px + column), reach < half - slack);
+        const auto pixel = static_cast<std::size_t>(row * width_px + column);
+        if (batch.is_round) {
+          const double reach = std::hypot(column + 0.5 - x, row + 0.5 - y);
+          if (reach <= 0.5 * size + slack) {
+            visit_pixel(pixel, reach < 0.5 * size - slack);
+          }
+          continue;
+        }
+        const bool low = covers(x - slack, column) || covers(x + slack, column);
+        const bool high = covers(y - slack, row) || covers(y + slack, row);
+        if (low && high) {
+          visit_pixel(pixel, covers(x - slack, column) && covers(x + slack, column) && covers(y - slack, row) &&
+                                 covers(y + slack, row));
         }
       }
     }

@@ -1,0 +1,161 @@
+// Every way to draw points shows what GL_POINTS shows: at the origin and at an ECEF offset, from the near plane to the
+// horizon, at every size and in every colour mode.
+#include <gtest/gtest.h>
+
+#include <osg/NodeVisitor>
+#include <random>
+
+#include "scenegraph/geometry.h"
+#include "scenegraph/pipeline/point_stage.h"
+#include "tests/nodes/scene_picture.h"
+
+namespace stillframe::test {
+namespace {
+
+using scenegraph::FieldType;
+using scenegraph::ObjectType;
+
+constexpr int kWidthPx = 320;
+constexpr int kHeightPx = 240;
+/// Share of the pixels: where two depths tie, and the rim of a disc.
+constexpr double kTolerance = 0.001;
+
+/// A field of points 0.1 m to 10 km ahead of x, evenly over the logarithm of the distance, some behind.
+scenegraph::PointCloud nearToHorizon(std::size_t count) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  CloudBuilder builder("lidar");
+  builder.xyz().field("intensity", FieldType::Float32).field("rgb", FieldType::Uint32);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double distance = std::pow(10.0, 5.0 * unit(random) - 1.0) * (i % 10 == 0 ? -1.0 : 1.0);
+    const double across = (unit(random) - 0.5) * 2.0 * distance;
+    const double up = (unit(random) - 0.5) * 1.5 * distance;
+    builder.point({distance, across, up, unit(random) * 100.0, std::floor(unit(random) * 0xffffff)});
+  }
+  return builder.build();
+}
+
+/// Sets the node mask of all opaque points, so that OpenGL leaves them out.
+class PointMask : public osg::NodeVisitor {
+ public:
+  PointMask(osg::Node::NodeMask from, osg::Node::NodeMask to) : from_(from), to_(to) {
+    setTraversalMode(TRAVERSE_ALL_CHILDREN);
+    setNodeMaskOverride(~0U);
+  }
+  void apply(osg::Geometry& geometry) override {
+    if (geometry.getNodeMask() == from_ && !geometry.getPrimitiveSetList().empty() &&
+        geometry.getPrimitiveSet(0)->getMode() == GL_POINTS) {
+      geometry.setNodeMask(to_);
+      ++changed;
+    }
+  }
+  int changed = 0;
+
+ private:
+  osg::Node::NodeMask from_;
+  osg::Node::NodeMask to_;
+};
+
+struct Difference {
+  double pixels = 0.0;  // share of the pixels that either shows points in, that are more than a step apart
+  std::size_t drawn = 0;
+};
+
+Difference compare(const scenegraph::Picture& a, const scenegraph::Picture& b) {
+  const auto bytes_a = scenegraph::toBytes(a);
+  const auto bytes_b = scenegraph::toBytes(b);
+  std::size_t apart = 0;
+  Difference result;
+  for (std::size_t i = 0; i < a.depth_m.size(); ++i) {
+    const bool is_drawn = std::isfinite(a.depth_m[i]) || std::isfinite(b.depth_m[i]);
+    result.drawn += is_drawn ? 1 : 0;
+    int most = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      most = std::max(most, std::abs(bytes_a.rgb[3 * i + c] - bytes_b.rgb[3 * i + c]));
+    }
+    const double depths = std::isfinite(a.depth_m[i]) && std::isfinite(b.depth_m[i])
+                              ? std::abs(a.depth_m[i] - b.depth_m[i]) / a.depth_m[i]
+                              : (is_drawn ? 1.0 : 0.0);
+    apart += most > 1 || depths > 1e-5 ? 1 : 0;
+  }
+  result.pixels = static_cast<double>(apart) / static_cast<double>(std::max<std::size_t>(result.drawn, 1));
+  return result;
+}
+
+struct RasteriserCase {
+  const char* name;
+  scenegraph::SettingTexts settings;
+};
+
+class PointRasterisers : public ScenePictureTest, public testing::WithParamInterface<RasteriserCase> {
+ protected:
+  scenegraph::Picture picture(osg::Group& root, const scenegraph::CameraView& view) {
+    auto drawn = renderer_->render(root, view, {.width = kWidthPx, .height = kHeightPx, .background = {0, 0, 0, 1}});
+    EXPECT_TRUE(drawn) << drawn.error().message;
+    return drawn ? std::move(*drawn) : scenegraph::Picture{};
+  }
+
+  void expectTheSame(const tf::RigidTransform& map_from_lidar, const scenegraph::CameraView& view, double tolerance) {
+    open(DatasetBuilder()
+             .topic("/tf", ObjectType::FrameTransforms)
+             .transform(0, "map", "lidar", map_from_lidar)
+             .topic("/points", ObjectType::PointCloud)
+             .at(1_s, nearToHorizon(40'000))
+             .build(),
+         "map");
+    add("/points", GetParam().settings);
+    scene_->update(tf::TimePoint{1_s});
+    const scenegraph::Picture by_gl = picture(scene_->root(), view);
+
+    scenegraph::PointStage stage(2);
+    const double aspect = static_cast<double>(kWidthPx) / kHeightPx;
+    const glm::dmat4 clip_from_eye = scenegraph::projection(view, aspect);
+    EXPECT_EQ(stage.draw(scene_->root(), osg::Matrixd(&view.eye_from_fixed[0][0]), osg::Matrixd(&clip_from_eye[0][0]),
+                         kWidthPx, kHeightPx),
+              40'000U);
+    osg::ref_ptr<osg::Group> both = new osg::Group;
+    both->addChild(&scene_->root());
+    both->addChild(&stage.picture());
+    PointMask hide(scenegraph::kOpaquePoints, 0);
+    both->accept(hide);
+    EXPECT_EQ(hide.changed, 1);
+    const scenegraph::Picture by_cpu = picture(*both, view);
+    const Difference difference = compare(by_gl, by_cpu);
+    RecordProperty("share_of_pixels_apart", std::to_string(difference.pixels));
+    std::cout << GetParam().name << ": " << difference.pixels << " of " << difference.drawn << " pixels apart\n";
+    EXPECT_GT(difference.drawn, 4000U);
+    EXPECT_LE(difference.pixels, tolerance);
+  }
+
+  static scenegraph::CameraView alongX(const glm::dvec3& eye) {
+    return {.eye_from_fixed = scenegraph::lookAt(eye, eye + glm::dvec3(1, 0, 0), {0, 0, 1})};
+  }
+};
+
+TEST_P(PointRasterisers, AgreeAtTheOrigin) { expectTheSame({}, alongX({0, 0, 0}), kTolerance); }
+
+TEST_P(PointRasterisers, AgreeAtAnEcefOffset) {
+  const glm::dvec3 munich{4'177'000.25, 855'000.5, 4'728'000.125};
+  expectTheSame({.translation = munich}, alongX(munich), kTolerance);
+}
+
+TEST_P(PointRasterisers, AgreeInParallelProjection) {
+  scenegraph::CameraView view = alongX({-20, 0, 0});
+  view.is_orthographic = true;
+  view.vertical_extent_m = 30.0;
+  expectTheSame({}, view, kTolerance);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, PointRasterisers,
+    testing::Values(RasteriserCase{"value", {{"color_field", "intensity"}}},
+                    RasteriserCase{"rgb", {{"color_field", "rgb"}, {"point_size", "2"}}},
+                    RasteriserCase{"axis", {{"color_field", "z"}, {"point_size", "3"}}},
+                    RasteriserCase{"flat_discs",
+                                   {{"color_field", "flat"}, {"point_size", "7"}, {"round_points", "true"}}},
+                    RasteriserCase{"metres", {{"color_field", "x"}, {"point_size", "0.2"}, {"size_unit", "m"}}},
+                    RasteriserCase{"fractional", {{"color_field", "intensity"}, {"point_size", "2.7"}}}),
+    [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace stillframe::test

@@ -94,8 +94,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<std::uint64_t> ids;
   for (unsigned i = 0; i < updates; ++i) {
     auto update = std::make_shared<scenegraph::OccupancyGridUpdate>();
-    update->x = static_cast<std::int32_t>(input.size()) - 40;
-    update->y = static_cast<std::int32_t>(input.size()) - 40;
+    update->x = static_cast<std::int32_t>(input.size() - 40U);
+    update->y = static_cast<std::int32_t>(input.size() - 40U);
     update->width = input.size() % 65536;
     update->height = input.size();
     update->data = input.payload(input.take<std::uint8_t>());

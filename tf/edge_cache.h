@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "tf/rigid_transform.h"
@@ -13,39 +12,33 @@ namespace stillframe::tf {
 
 /// Samples of one parent->child edge, answered by zero-order hold.
 ///
-/// Sorted by stamp in blocks of at most kBlockSamples, stamps and poses apart (a search reads stamps only), with the
-/// first stamp of every block in one index. A search is O(log n), a few probes when the rate is steady; an insert is
-/// O(1) at the end and O(log n + block) anywhere else. 64 bytes a sample, at most an eighth of slack, and one byte of
-/// index. Not thread-safe: TransformBuffer holds the lock.
+/// Sorted by stamp in blocks of at most kBlockSamples; a sample fills one cache line, its stamp beside its pose. The
+/// block and the place in it are guessed as if the rate were steady and searched for from there: two or three looks at
+/// a steady rate, O(log n) at any other. An insert is O(1) at the end and O(log n + block) anywhere else. 64 bytes a
+/// sample, at most an eighth of slack, and half a byte of index. Not thread-safe: TransformBuffer holds the lock.
 class EdgeCache {
  public:
   static constexpr std::size_t kBlockSamples = 64;
 
-  /// Position of a sample; valid until the next change.
-  struct Cursor {
-    std::uint32_t block = 0;
-    std::uint32_t index = 0;
+  struct alignas(64) Sample {
+    RigidTransform parent_from_child;
+    std::int64_t stamp_ns = 0;
   };
+  static_assert(sizeof(Sample) == 64);
 
-  /// Sample in force at `time`; nullopt when `time` precedes every stamp.
-  [[nodiscard]] std::optional<Cursor> find(TimePoint time) const noexcept;
-  /// A search in three steps, for many edges at once: each step prefetches what the next one reads.
+  /// Sample in force at `time`, or nullptr when `time` precedes every stamp. Valid until the next change.
+  [[nodiscard]] const Sample* find(TimePoint time) const noexcept { return find(probe(guessBlock(time), time), time); }
+  /// A search in four steps, for many edges at once: each step prefetches what the next one reads.
   struct Probe {
-    std::size_t block_count = 0;  ///< blocks that start at or before the time
-    double fraction = 0.0;        ///< where in the last of them the time would lie at a steady rate
+    const Sample* samples = nullptr;  ///< of the block in which the time lies; nullptr before the first stamp
+    std::uint32_t count = 0;          ///< of those samples
+    std::uint32_t guess = 0;          ///< where among them the time lies at a steady rate
   };
-  void prefetchIndex(TimePoint time) const noexcept;
-  [[nodiscard]] Probe probeBlock(TimePoint time) const noexcept;
-  void prefetchSample(const Probe& probe) const noexcept;
-  /// Sample in force at `time`, for the probe of that time.
-  [[nodiscard]] std::optional<Cursor> find(const Probe& probe, TimePoint time) const noexcept;
-
-  /// Pose in force at `time`, or nullptr when `time` precedes every stamp. Valid until the next change.
-  [[nodiscard]] const RigidTransform* at(TimePoint time) const noexcept;
-  [[nodiscard]] TimePoint stamp(Cursor cursor) const noexcept { return {blocks_[cursor.block].stamps[cursor.index]}; }
-  [[nodiscard]] const RigidTransform& pose(Cursor cursor) const noexcept {
-    return blocks_[cursor.block].poses[cursor.index];
-  }
+  [[nodiscard]] std::size_t guessBlock(TimePoint time) const noexcept;
+  [[nodiscard]] std::size_t guessBlockAgain(std::size_t guess, TimePoint time) const noexcept;
+  [[nodiscard]] Probe probe(std::size_t block_guess, TimePoint time) const noexcept;
+  static void prefetchSample(const Probe& probe) noexcept;
+  [[nodiscard]] static const Sample* find(const Probe& probe, TimePoint time) noexcept;
 
   /// Adds a sample or replaces the one of the same stamp.
   void insert(TimePoint stamp, const RigidTransform& parent_from_child);
@@ -55,33 +48,99 @@ class EdgeCache {
   [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// First and newest stamp; only when not empty.
-  [[nodiscard]] TimePoint first() const noexcept { return {firsts_.front()}; }
+  [[nodiscard]] TimePoint first() const noexcept { return {first_}; }
   [[nodiscard]] TimePoint last() const noexcept { return {last_}; }
-  /// The first pose; only when not empty.
-  [[nodiscard]] const RigidTransform& firstPose() const noexcept { return blocks_.front().poses.front(); }
+  /// The first sample; only when not empty.
+  [[nodiscard]] const Sample& front() const noexcept { return blocks_.front().samples.front(); }
   /// Heap bytes held, capacity included.
   [[nodiscard]] std::size_t bytes() const noexcept;
 
  private:
   struct Block {
-    [[nodiscard]] std::size_t guess(const Probe& probe) const noexcept {
-      const std::size_t count = stamps.size();
-      const double index = probe.fraction * static_cast<double>(count);
-      return std::min(static_cast<std::size_t>(static_cast<std::int64_t>(index)), count - 1);
-    }
-
-    std::vector<std::int64_t> stamps;
-    std::vector<RigidTransform> poses;
+    std::int64_t first = 0;  // stamp of the first sample
+    std::vector<Sample> samples;
   };
+
+  /// (to - from) / 2 for from <= to: the difference of two int64 may need 64 bits, half of it converts to double in one
+  /// instruction.
+  [[nodiscard]] static double halfSpan(std::int64_t from, std::int64_t to) noexcept {
+    const std::uint64_t span = static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from);
+    return static_cast<double>(static_cast<std::int64_t>(span >> 1));
+  }
+  [[nodiscard]] bool isInBlock(std::size_t block, std::int64_t stamp) const noexcept {
+    return blocks_[block].first <= stamp && (block + 1 == blocks_.size() || stamp < blocks_[block + 1].first);
+  }
+  [[nodiscard]] std::size_t searchBlock(std::size_t guess, std::int64_t stamp) const noexcept;
+  [[nodiscard]] static const Sample* searchSample(const Probe& probe, std::int64_t stamp) noexcept;
+
   void append(TimePoint stamp, const RigidTransform& parent_from_child);
   void insertBetween(TimePoint stamp, const RigidTransform& parent_from_child);
   void makeRoom(Block& block) const;
   void split(std::size_t block);
+  void measureRate() noexcept;
 
-  std::vector<std::int64_t> firsts_;  // first stamp of each block
-  std::vector<Block> blocks_;         // none is empty
+  std::vector<Block> blocks_;  // none is empty
   std::size_t size_ = 0;
-  std::int64_t last_ = 0;  // newest stamp, when size_ > 0
+  std::int64_t first_ = 0;  // oldest and newest stamp, when size_ > 0
+  std::int64_t last_ = 0;
+  double blocks_per_half_span_ = 0.0;  // blocks per 2 ns, for guessBlock()
 };
+
+inline std::size_t EdgeCache::guessBlock(TimePoint time) const noexcept {
+  if (blocks_.size() < 2 || time.ns < first_) {
+    return 0;
+  }
+  const double place = halfSpan(first_, time.ns) * blocks_per_half_span_;
+  const double last_place = static_cast<double>(static_cast<std::int64_t>(blocks_.size() - 1));
+  const auto guess = static_cast<std::int64_t>(std::min(place, last_place));
+  __builtin_prefetch(&blocks_[static_cast<std::size_t>(guess)]);
+  return static_cast<std::size_t>(guess);
+}
+
+/// Blocks that filled out of order are not evenly full: from one near the right one, the way is short.
+inline std::size_t EdgeCache::guessBlockAgain(std::size_t guess, TimePoint time) const noexcept {
+  if (blocks_.size() < 2 || time.ns < first_) {
+    return 0;
+  }
+  const std::int64_t first = blocks_[guess].first;
+  const double away = first <= time.ns ? halfSpan(first, time.ns) * blocks_per_half_span_
+                                       : halfSpan(time.ns, first) * -blocks_per_half_span_ - 1.0;
+  const double last_place = static_cast<double>(static_cast<std::int64_t>(blocks_.size() - 1));
+  const double place = static_cast<double>(static_cast<std::int64_t>(guess)) + away;
+  const auto again = static_cast<std::size_t>(static_cast<std::int64_t>(std::clamp(place, 0.0, last_place)));
+  __builtin_prefetch(&blocks_[again]);
+  __builtin_prefetch(&blocks_[again] + 1);  // past the end at worst, which a prefetch does not mind
+  return again;
+}
+
+inline EdgeCache::Probe EdgeCache::probe(std::size_t block_guess, TimePoint time) const noexcept {
+  if (size_ == 0 || time.ns < first_) {
+    return {};
+  }
+  const std::size_t index = isInBlock(block_guess, time.ns) ? block_guess : searchBlock(block_guess, time.ns);
+  const Block& block = blocks_[index];
+  const bool is_last = index + 1 == blocks_.size();
+  const auto last_place = static_cast<std::int64_t>(block.samples.size() - 1);
+  // A block ends where the next begins, the last one at its last sample.
+  const double span = halfSpan(block.first, is_last ? last_ : blocks_[index + 1].first);
+  const double steps = static_cast<double>(is_last ? last_place : last_place + 1);
+  const double place = halfSpan(block.first, time.ns) * steps / std::max(span, 1.0);
+  const auto guess = static_cast<std::int64_t>(std::min(place, static_cast<double>(last_place)));
+  return {block.samples.data(), static_cast<std::uint32_t>(last_place + 1), static_cast<std::uint32_t>(guess)};
+}
+
+inline void EdgeCache::prefetchSample(const Probe& probe) noexcept {
+  __builtin_prefetch(probe.samples + probe.guess);
+  __builtin_prefetch(probe.samples + probe.guess + 1);
+}
+
+inline const EdgeCache::Sample* EdgeCache::find(const Probe& probe, TimePoint time) noexcept {
+  if (probe.samples == nullptr) {
+    return nullptr;
+  }
+  const Sample* guess = probe.samples + probe.guess;
+  const bool right = guess->stamp_ns <= time.ns && (probe.guess + 1 == probe.count || time.ns < (guess + 1)->stamp_ns);
+  return right ? guess : searchSample(probe, time.ns);
+}
 
 }  // namespace stillframe::tf

@@ -11,9 +11,10 @@ namespace stillframe::tf {
 ///
 /// A std::shared_mutex makes every reader write one shared counter, so readers on different cores slow each other. Here
 /// each thread counts itself in a cache line of its own (shared only past kStripes threads), and a writer asks all of
-/// them to leave. A waiting writer goes first; it should hold the gate briefly. Any thread may use it: lock_shared()
-/// and unlock_shared() in one thread, not nested; close() and open() under the caller's own mutex, by one writer at a
-/// time.
+/// them to leave. A waiting writer goes first; it should hold the gate for microseconds, as who waits here spins for
+/// some tens of them before it sleeps: to sleep and be woken costs more than most lookups. Any thread may use it:
+/// lock_shared() and unlock_shared() in one thread, not nested; the rest under the caller's own mutex, by one writer at
+/// a time.
 class ReaderGate {
  public:
   void lock_shared() noexcept;    // NOLINT(readability-identifier-naming): for std::shared_lock
@@ -21,6 +22,9 @@ class ReaderGate {
   /// Keeps new readers out and waits until the last has left.
   void close() noexcept;
   void open() noexcept;
+  /// With the gate open: waits a moment, if need be, until those whom it kept out are in. A writer that closes it again
+  /// and again calls this in between, or they would hardly ever find it open.
+  void letReadersIn() const noexcept;
 
  private:
   static constexpr std::size_t kStripes = 16;
@@ -28,9 +32,11 @@ class ReaderGate {
     std::atomic<std::uint32_t> readers{0};
   };
   [[nodiscard]] Stripe& ownStripe() noexcept;
+  void waitUntilOpen() noexcept;
 
   std::array<Stripe, kStripes> stripes_;
   alignas(64) std::atomic<std::uint32_t> closed_{0};
+  alignas(64) std::atomic<std::uint32_t> kept_out_{0};  // readers in waitUntilOpen()
 };
 
 /// Closes a gate for its life.

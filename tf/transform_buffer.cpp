@@ -12,14 +12,18 @@
 namespace stillframe::tf {
 
 struct TransformBuffer::Impl {
-  /// Samples per closing of the gate in a bulk insert: a few tens of microseconds.
+  /// Samples that a bulk insert checks at a time, with the gate open, and stores per closing of the gate: a few
+  /// microseconds, about as long as a lookup takes.
   static constexpr std::size_t kBatch = 256;
+  static constexpr std::size_t kClosing = 32;
 
   std::mutex writer_mutex;  // one writer at a time; a writer may read the tree without the gate
   mutable ReaderGate gate;  // guards tree: readers inside, or the writer alone
   TransformTree tree;
   std::atomic<std::uint64_t> revision{0};
   std::optional<std::int64_t> retention_ns;
+
+  using Checked = std::expected<TransformTree::CheckedSample, InsertError>;
 
   /// Stores a checked sample. Needs the gate closed.
   std::expected<void, InsertError> store(const TransformSample& sample, TransformTree::CheckedSample& checked) {
@@ -32,6 +36,31 @@ struct TransformBuffer::Impl {
     }
     tree.store(checked, retention_ns);
     return {};
+  }
+
+  /// Stores those of some samples that were found sound, under one closing of the gate; `checked` learns what is
+  /// refused only now. Returns how many were stored.
+  std::size_t storeSound(std::span<const TransformSample> samples, std::span<Checked> checked) {
+    if (std::none_of(checked.begin(), checked.end(), [](const Checked& each) { return each.has_value(); })) {
+      return 0;
+    }
+    std::size_t stored = 0;
+    {
+      const GateClosure closure(gate);
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (!checked[i]) {
+          continue;
+        }
+        if (const auto done = store(samples[i], *checked[i])) {
+          ++stored;
+        } else {
+          checked[i] = std::unexpected(done.error());
+        }
+      }
+      revision += stored > 0 ? 1 : 0;
+    }
+    gate.letReadersIn();
+    return stored;
   }
 };
 
@@ -80,31 +109,18 @@ std::expected<void, InsertError> TransformBuffer::insert(const TransformSample& 
 
 BulkInsertReport TransformBuffer::insertBulk(std::span<const TransformSample> samples) {
   BulkInsertReport report;
-  std::array<std::expected<TransformTree::CheckedSample, InsertError>, Impl::kBatch> checked;
+  std::array<Impl::Checked, Impl::kBatch> checked;
   while (!samples.empty()) {
     const auto batch = samples.first(std::min(samples.size(), Impl::kBatch));
     samples = samples.subspan(batch.size());
     const std::lock_guard writer(impl_->writer_mutex);
     // The greater part of the work needs the tree as it is, and lets readers go on.
-    std::size_t sound = 0;
     for (std::size_t i = 0; i < batch.size(); ++i) {
       checked[i] = impl_->tree.check(batch[i]);
-      sound += checked[i] ? 1 : 0;
     }
-    if (sound > 0) {
-      const GateClosure closure(impl_->gate);
-      const std::size_t inserted_before = report.inserted;
-      for (std::size_t i = 0; i < batch.size(); ++i) {
-        if (!checked[i]) {
-          continue;
-        }
-        if (const auto stored = impl_->store(batch[i], *checked[i])) {
-          ++report.inserted;
-        } else {
-          checked[i] = std::unexpected(stored.error());
-        }
-      }
-      impl_->revision += report.inserted > inserted_before ? 1 : 0;
+    for (std::size_t begin = 0; begin < batch.size(); begin += Impl::kClosing) {
+      const std::size_t count = std::min(batch.size() - begin, Impl::kClosing);
+      report.inserted += impl_->storeSound(batch.subspan(begin, count), std::span(checked).subspan(begin, count));
     }
     for (std::size_t i = 0; i < batch.size(); ++i) {
       if (!checked[i]) {

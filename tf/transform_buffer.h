@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tf/chain_accumulator.h"
+#include "tf/chain_kernels.h"
 #include "tf/errors.h"
 #include "tf/rigid_transform.h"
 #include "tf/time.h"
@@ -57,8 +58,10 @@ struct EdgeInfo {
 struct SnapshotScratch {
   std::vector<const RigidTransform*> poses;
   std::vector<ChainAccumulator> root_from_frame;
-  std::vector<std::uint8_t> done;
+  std::vector<std::uint8_t> states;
   std::vector<FrameId> path;
+  std::vector<ChainStep> steps;
+  std::vector<FrameId> step_frames;
 };
 
 /// Every frame resolved against one root at one time; index = FrameId. Reuse it between ticks: no allocation then.
@@ -98,7 +101,7 @@ class TransformBuffer {
 
   /// Adds one sample; a repeated stamp replaces. Nothing changes on refusal.
   std::expected<void, InsertError> insert(const TransformSample& sample);
-  /// Adds many, the cheap way to load a file, in any order. Readers get in between batches of a few hundred, so they
+  /// Adds many, the cheap way to load a file, in any order. Readers get in between batches of a few dozen, so they
   /// may see a part of it.
   BulkInsertReport insertBulk(std::span<const TransformSample> samples);
   /// Forgets every frame and sample. Frame ids start anew.

@@ -7,6 +7,20 @@
 #include "tf/wide_transform.h"
 
 namespace stillframe::tf {
+namespace {
+
+/// What a frame of a snapshot has come to, in SnapshotScratch::states.
+enum class SnapshotState : std::uint8_t { Pending, Placed, Failed };
+
+SnapshotState stateOf(const SnapshotScratch& scratch, FrameId frame) noexcept {
+  return static_cast<SnapshotState>(scratch.states[frame]);
+}
+
+void setState(SnapshotScratch& scratch, FrameId frame, SnapshotState state) noexcept {
+  scratch.states[frame] = static_cast<std::uint8_t>(state);
+}
+
+}  // namespace
 
 std::expected<TransformTree::CheckedSample, InsertError> TransformTree::check(
     const TransformSample& sample) const noexcept {
@@ -92,8 +106,8 @@ std::optional<TimePoint> TransformTree::stampInForce(FrameId frame, TimePoint ti
     return std::nullopt;
   }
   const Edge& edge = edges_[frame];
-  if (const auto cursor = edge.samples.find(time)) {
-    return edge.samples.stamp(*cursor);
+  if (const EdgeCache::Sample* sample = edge.samples.find(time)) {
+    return TimePoint{sample->stamp_ns};
   }
   return static_for_all_time && edge.is_static ? std::optional(edge.samples.first()) : std::nullopt;
 }
@@ -107,81 +121,95 @@ LookupFailure TransformTree::noSample(FrameId target, FrameId source, FrameId ch
 void TransformTree::resolve(Segment& segment, TimePoint time) const noexcept {
   // Each pass asks for the memory that the next one reads: in a long recording every edge costs a handful of cache
   // misses, and this way those of all edges are waited for together.
+  std::array<std::size_t, Segment::kEdges> blocks;
   std::array<EdgeCache::Probe, Segment::kEdges> probes;
-  for (std::size_t i = 0; i < segment.count; ++i) {
-    edges_[segment.children[i]].samples.prefetchIndex(time);
+  for (std::size_t i = segment.begin; i < Segment::kEdges; ++i) {
+    blocks[i] = edges_[segment.children[i]].samples.guessBlock(time);
   }
-  for (std::size_t i = 0; i < segment.count; ++i) {
-    probes[i] = edges_[segment.children[i]].samples.probeBlock(time);
+  for (std::size_t i = segment.begin; i < Segment::kEdges; ++i) {
+    blocks[i] = edges_[segment.children[i]].samples.guessBlockAgain(blocks[i], time);
   }
-  for (std::size_t i = 0; i < segment.count; ++i) {
-    edges_[segment.children[i]].samples.prefetchSample(probes[i]);
+  for (std::size_t i = segment.begin; i < Segment::kEdges; ++i) {
+    probes[i] = edges_[segment.children[i]].samples.probe(blocks[i], time);
+    EdgeCache::prefetchSample(probes[i]);
   }
-  for (std::size_t i = 0; i < segment.count; ++i) {
-    const Edge& edge = edges_[segment.children[i]];
-    if (const auto cursor = edge.samples.find(probes[i], time)) {
-      segment.poses[i] = &edge.samples.pose(*cursor);
-      __builtin_prefetch(segment.poses[i]);
-      __builtin_prefetch(&segment.poses[i]->translation.z);
+  for (std::size_t i = segment.begin; i < Segment::kEdges; ++i) {
+    if (const EdgeCache::Sample* sample = EdgeCache::find(probes[i], time)) {
+      segment.poses[i] = &sample->parent_from_child;
     } else {
-      segment.poses[i] = static_for_all_time && edge.is_static ? &edge.samples.firstPose() : nullptr;
+      const Edge& edge = edges_[segment.children[i]];
+      segment.poses[i] = static_for_all_time && edge.is_static ? &edge.samples.front().parent_from_child : nullptr;
     }
   }
 }
 
-/// ancestor_from_frame, into `wide` as well unless null; or the child of the first edge without a sample.
-std::expected<RigidTransform, FrameId> TransformTree::composeUpTo(FrameId ancestor, FrameId frame, TimePoint time,
-                                                                  WideTransform* wide) const noexcept {
-  WideTransform wide_top_from_frame;
+/// The child of the lowest edge of a resolved chain that has no sample.
+std::optional<FrameId> TransformTree::lowestUnresolved(const Segment& segment) noexcept {
+  for (std::size_t i = Segment::kEdges; i-- > segment.begin;) {
+    if (segment.poses[i] == nullptr) {
+      return segment.children[i];
+    }
+  }
+  return std::nullopt;
+}
+
+/// ancestor_from_frame, or the child of the lowest edge without a sample.
+std::expected<WideTransform, FrameId> TransformTree::composeUpTo(FrameId ancestor, FrameId frame,
+                                                                 TimePoint time) const noexcept {
+  WideTransform top_from_frame;
   Segment segment;
-  for (bool first = true;; first = false) {
-    for (segment.count = 0; segment.count < Segment::kEdges && frame != ancestor; frame = parents_[frame]) {
+  while (frame != ancestor) {
+    for (segment.clear(); !segment.full() && frame != ancestor; frame = parents_[frame]) {
       segment.add(frame);
     }
     resolve(segment, time);
-    const auto end = segment.poses.begin() + static_cast<std::ptrdiff_t>(segment.count);
-    if (const auto failing = std::find(segment.poses.begin(), end, nullptr); failing != end) {
-      return std::unexpected(segment.children[static_cast<std::size_t>(failing - segment.poses.begin())]);
+    if (const auto unresolved = lowestUnresolved(segment)) {
+      return std::unexpected(*unresolved);
     }
-    // From the top down: the first offset is taken as it is, so that a single edge answers with what was inserted.
     ChainAccumulator top_from_bottom;
-    for (std::size_t i = segment.count; i-- > 0;) {
-      top_from_bottom.append(*segment.poses[i]);
-    }
-    if (first && frame == ancestor && wide == nullptr) {
-      return top_from_bottom.narrow();
-    }
-    wide_top_from_frame = compose(top_from_bottom.widen(), wide_top_from_frame);
-    if (frame == ancestor) {
-      break;
-    }
+    top_from_bottom.append(std::span(segment.poses).subspan(segment.begin));
+    top_from_frame = compose(top_from_bottom.widen(), top_from_frame);
   }
-  if (wide != nullptr) {
-    *wide = wide_top_from_frame;
-  }
-  return narrow(wide_top_from_frame);
+  return top_from_frame;
 }
 
 std::expected<RigidTransform, LookupFailure> TransformTree::lookup(FrameId target, FrameId source,
                                                                    TimePoint time) const noexcept {
   const FrameId known_target = contains(target) ? target : kNoFrame;
   const FrameId known_source = contains(source) ? source : kNoFrame;
-  const auto failed = [&](LookupError code) {
+  if (known_target == kNoFrame || known_source == kNoFrame) {
+    const auto code = known_target == kNoFrame ? LookupError::UnknownTarget : LookupError::UnknownSource;
     return std::unexpected(LookupFailure{code, known_target, known_source, kNoFrame, time, {}, {}});
-  };
-  if (known_target == kNoFrame) {
-    return failed(LookupError::UnknownTarget);
-  }
-  if (known_source == kNoFrame) {
-    return failed(LookupError::UnknownSource);
   }
   if (target == source) {
     return RigidTransform{};
   }
+  // What nearly every lookup is: the target lies above the source, by no more than one segment.
+  Segment segment;
+  FrameId frame = source;
+  for (; frame != target && frame != kNoFrame && !segment.full(); frame = parents_[frame]) {
+    segment.add(frame);
+  }
+  if (frame != target) {
+    return lookupAcross(target, source, time);
+  }
+  resolve(segment, time);
+  if (const auto unresolved = lowestUnresolved(segment)) {
+    return std::unexpected(noSample(target, source, *unresolved, time));
+  }
+  // From the top down: the first offset is taken as it is, so that a single edge answers with what was inserted.
+  ChainAccumulator target_from_source;
+  target_from_source.append(std::span(segment.poses).subspan(segment.begin));
+  return target_from_source.narrow();
+}
+
+/// lookup() between any two frames.
+std::expected<RigidTransform, LookupFailure> TransformTree::lookupAcross(FrameId target, FrameId source,
+                                                                         TimePoint time) const noexcept {
   const Climb from_target = climb(target);
   const Climb from_source = climb(source);
   if (from_target.root != from_source.root) {
-    return failed(LookupError::Disconnected);
+    return std::unexpected(LookupFailure{LookupError::Disconnected, target, source, kNoFrame, time, {}, {}});
   }
   // The lowest common ancestor: level both sides, then go up together.
   FrameId meet = source;
@@ -196,21 +224,13 @@ std::expected<RigidTransform, LookupFailure> TransformTree::lookup(FrameId targe
     meet = parents_[meet];
     other = parents_[other];
   }
-  const auto noSampleOn = [&](FrameId child) { return std::unexpected(noSample(target, source, child, time)); };
-  if (meet == target) {
-    const auto target_from_source = composeUpTo(meet, source, time, nullptr);
-    return target_from_source ? std::expected<RigidTransform, LookupFailure>(*target_from_source)
-                              : noSampleOn(target_from_source.error());
+  const auto meet_from_source = composeUpTo(meet, source, time);
+  const auto meet_from_target = composeUpTo(meet, target, time);
+  if (!meet_from_source || !meet_from_target) {
+    const FrameId unresolved = !meet_from_source ? meet_from_source.error() : meet_from_target.error();
+    return std::unexpected(noSample(target, source, unresolved, time));
   }
-  WideTransform meet_from_source;
-  if (const auto complete = composeUpTo(meet, source, time, &meet_from_source); !complete) {
-    return noSampleOn(complete.error());
-  }
-  WideTransform meet_from_target;
-  if (const auto complete = composeUpTo(meet, target, time, &meet_from_target); !complete) {
-    return noSampleOn(complete.error());
-  }
-  return narrow(composeInverse(meet_from_target, meet_from_source));
+  return narrow(meet == target ? *meet_from_source : composeInverse(*meet_from_target, *meet_from_source));
 }
 
 void TransformTree::snapshot(FrameId root, TimePoint time, Snapshot& out) const {
@@ -218,9 +238,11 @@ void TransformTree::snapshot(FrameId root, TimePoint time, Snapshot& out) const 
   out.time = time;
   out.root = root;
   SnapshotScratch& scratch = out.scratch;
-  scratch.done.assign(count, 0);
+  scratch.states.assign(count, static_cast<std::uint8_t>(SnapshotState::Pending));
   scratch.root_from_frame.resize(count);
   scratch.poses.resize(count);
+  scratch.steps.clear();
+  scratch.step_frames.clear();
   out.root_from_frame.resize(count);
   if (!contains(root)) {
     for (FrameId frame = 0; frame < count; ++frame) {
@@ -232,17 +254,20 @@ void TransformTree::snapshot(FrameId root, TimePoint time, Snapshot& out) const 
   resolveAll(time, scratch);
   out.root_from_frame[root] = RigidTransform{};
   scratch.root_from_frame[root] = ChainAccumulator{};
-  scratch.done[root] = 1;
+  setState(scratch, root, SnapshotState::Placed);
   snapshotAncestors(out);
   for (FrameId frame = 0; frame < count; ++frame) {
-    // Up to the first resolved ancestor, and down again: each frame is composed once, from its parent's result.
-    scratch.path.clear();
-    for (FrameId at = frame; at != kNoFrame && scratch.done[at] == 0; at = parents_[at]) {
+    // Up to the first planned ancestor, and down again: each frame is composed once, from its parent's result.
+    for (FrameId at = frame; at != kNoFrame && stateOf(scratch, at) == SnapshotState::Pending; at = parents_[at]) {
       scratch.path.push_back(at);
     }
     for (; !scratch.path.empty(); scratch.path.pop_back()) {
-      snapshotFrame(scratch.path.back(), out);
+      planFrame(scratch.path.back(), out);
     }
+  }
+  ChainKernels::best().append_each(scratch.steps);
+  for (std::size_t i = 0; i < scratch.steps.size(); ++i) {
+    out.root_from_frame[scratch.step_frames[i]] = scratch.steps[i].rounded;
   }
 }
 
@@ -252,12 +277,12 @@ void TransformTree::resolveAll(TimePoint time, SnapshotScratch& scratch) const {
     if (parents_[frame] != kNoFrame) {
       segment.add(frame);
     }
-    if (segment.count == Segment::kEdges || frame + 1 == parents_.size()) {
+    if (segment.full() || frame + 1 == parents_.size()) {
       resolve(segment, time);
-      for (std::size_t i = 0; i < segment.count; ++i) {
+      for (std::size_t i = segment.begin; i < Segment::kEdges; ++i) {
         scratch.poses[segment.children[i]] = segment.poses[i];
       }
-      segment.count = 0;
+      segment.clear();
     }
   }
 }
@@ -277,36 +302,37 @@ void TransformTree::snapshotAncestors(Snapshot& out) const noexcept {
       scratch.root_from_frame[ancestor] = root_from_ancestor;
       out.root_from_frame[ancestor] = root_from_ancestor.narrow();
     }
-    scratch.done[ancestor] = 1;
+    setState(scratch, ancestor, failing == kNoFrame ? SnapshotState::Placed : SnapshotState::Failed);
   }
 }
 
-void TransformTree::snapshotFrame(FrameId frame, Snapshot& out) const {
+/// Plans the step from the parent, which has its state, or writes why there is none.
+void TransformTree::planFrame(FrameId frame, Snapshot& out) const {
   SnapshotScratch& scratch = out.scratch;
   auto& result = out.root_from_frame[frame];
-  scratch.done[frame] = 1;
   const FrameId parent = parents_[frame];
   if (parent == kNoFrame) {  // the root of another tree
     result = std::unexpected(LookupFailure{LookupError::Disconnected, out.root, frame, kNoFrame, out.time, {}, {}});
-    return;
-  }
-  const auto& from_parent = out.root_from_frame[parent];
-  if (!from_parent && from_parent.error().code == LookupError::Disconnected) {
-    result = from_parent;
-    result.error().source = frame;
+    setState(scratch, frame, SnapshotState::Failed);
     return;
   }
   const RigidTransform* parent_from_frame = scratch.poses[frame];
-  if (parent_from_frame == nullptr) {
-    result = std::unexpected(noSample(out.root, frame, frame, out.time));
-  } else if (!from_parent) {
-    result = from_parent;
-    result.error().source = frame;
-  } else {
-    scratch.root_from_frame[frame] = scratch.root_from_frame[parent];
-    scratch.root_from_frame[frame].append(*parent_from_frame);
-    result = scratch.root_from_frame[frame].narrow();
+  const bool parent_placed = stateOf(scratch, parent) == SnapshotState::Placed;
+  if (parent_placed && parent_from_frame != nullptr) {
+    scratch.steps.push_back(
+        {&scratch.root_from_frame[parent].parts, parent_from_frame, &scratch.root_from_frame[frame].parts, {}});
+    scratch.step_frames.push_back(frame);
+    setState(scratch, frame, SnapshotState::Placed);
+    return;
   }
+  const bool disconnected = !parent_placed && out.root_from_frame[parent].error().code == LookupError::Disconnected;
+  if (parent_from_frame == nullptr && !disconnected) {
+    result = std::unexpected(noSample(out.root, frame, frame, out.time));
+  } else {
+    result = out.root_from_frame[parent];
+    result.error().source = frame;
+  }
+  setState(scratch, frame, SnapshotState::Failed);
 }
 
 std::size_t TransformTree::sampleBytes() const noexcept {

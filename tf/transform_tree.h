@@ -55,12 +55,15 @@ class TransformTree {
     EdgeCache samples;
     bool is_static = true;  // until a sample of a dynamic topic arrives
   };
-  /// Edges of a chain that are resolved together, so that their cache misses overlap.
+  /// Edges that are resolved together, so that their cache misses overlap. Filled from the back: a chain collected from
+  /// its bottom up stands in it from the top down.
   struct Segment {
-    static constexpr std::size_t kEdges = 64;
-    void add(FrameId child) noexcept { children[count++] = child; }
+    static constexpr std::size_t kEdges = 256;
+    void clear() noexcept { begin = kEdges; }
+    [[nodiscard]] bool full() const noexcept { return begin == 0; }
+    void add(FrameId child) noexcept { children[--begin] = child; }
 
-    std::size_t count = 0;
+    std::size_t begin = kEdges;  // entries from here on are in use
     std::array<FrameId, kEdges> children;
     std::array<const RigidTransform*, kEdges> poses;  // parent_from_child in force, or nullptr
   };
@@ -73,12 +76,15 @@ class TransformTree {
   [[nodiscard]] FrameId internFrame(std::string_view name);
   [[nodiscard]] Climb climb(FrameId frame) const noexcept;
   void resolve(Segment& segment, TimePoint time) const noexcept;
-  [[nodiscard]] std::expected<RigidTransform, FrameId> composeUpTo(FrameId ancestor, FrameId frame, TimePoint time,
-                                                                   WideTransform* wide) const noexcept;
+  [[nodiscard]] static std::optional<FrameId> lowestUnresolved(const Segment& segment) noexcept;
+  [[nodiscard]] std::expected<RigidTransform, LookupFailure> lookupAcross(FrameId target, FrameId source,
+                                                                          TimePoint time) const noexcept;
+  [[nodiscard]] std::expected<WideTransform, FrameId> composeUpTo(FrameId ancestor, FrameId frame,
+                                                                  TimePoint time) const noexcept;
   [[nodiscard]] LookupFailure noSample(FrameId target, FrameId source, FrameId child, TimePoint time) const noexcept;
   void resolveAll(TimePoint time, SnapshotScratch& scratch) const;
   void snapshotAncestors(Snapshot& out) const noexcept;
-  void snapshotFrame(FrameId frame, Snapshot& out) const;
+  void planFrame(FrameId frame, Snapshot& out) const;
 
   FrameNames names_;
   std::vector<FrameId> parents_;    // index = child

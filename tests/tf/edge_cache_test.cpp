@@ -9,7 +9,6 @@
 #include <random>
 #include <vector>
 
-#include "tf/sorted_stamps.h"
 #include "tf_builders.h"
 
 namespace stillframe::tf {
@@ -18,13 +17,26 @@ namespace {
 constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
 
-void expectMatchesUpperBound(const std::vector<std::int64_t>& stamps, std::int64_t stamp) {
-  const auto expected = std::upper_bound(stamps.begin(), stamps.end(), stamp) - stamps.begin();
-  ASSERT_EQ(countAtOrBefore(stamps, stamp), static_cast<std::size_t>(expected))
-      << stamp << " in " << stamps.size() << " stamps";
+/// Samples of ascending stamps; the pose tells which one it is.
+EdgeCache cacheOf(const std::vector<std::int64_t>& stamps) {
+  EdgeCache cache;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    cache.insert(TimePoint{stamps[i]}, translate(static_cast<double>(i), 0, 0));
+  }
+  return cache;
 }
 
-TEST(SortedStamps, CountsAtOrBeforeForEvenAndExtremeSpacing) {
+void expectMatchesUpperBound(const EdgeCache& cache, const std::vector<std::int64_t>& stamps, std::int64_t stamp) {
+  const auto after = std::upper_bound(stamps.begin(), stamps.end(), stamp);
+  const EdgeCache::Sample* found = cache.find(TimePoint{stamp});
+  ASSERT_EQ(found == nullptr, after == stamps.begin()) << stamp << " in " << stamps.size() << " stamps";
+  if (found != nullptr) {
+    ASSERT_EQ(found->stamp_ns, *std::prev(after)) << stamp << " in " << stamps.size() << " stamps";
+    ASSERT_EQ(static_cast<std::ptrdiff_t>(found->parent_from_child.translation.x), after - stamps.begin() - 1);
+  }
+}
+
+TEST(EdgeCache, FindsTheNewestAtOrBeforeForEvenAndExtremeSpacing) {
   std::vector<std::vector<std::int64_t>> cases{
       {}, {0}, {kMin}, {kMax}, {kMin, kMax}, {kMin, 0, kMax}, {kMax - 1, kMax}};
   std::vector<std::int64_t> exponential{kMin};
@@ -40,30 +52,37 @@ TEST(SortedStamps, CountsAtOrBeforeForEvenAndExtremeSpacing) {
   std::vector<std::int64_t> burst = even;  // a dense burst, then a gap of decades
   burst.push_back(kMax);
   cases.push_back(burst);
+  std::vector<std::int64_t> bursts;  // dense runs of a prime length, seconds apart: no block is evenly filled
+  for (std::int64_t i = 0; i < 5000; ++i) {
+    bursts.push_back(i / 37 * 1'000'000'000 + i % 37);
+  }
+  cases.push_back(bursts);
   for (const auto& stamps : cases) {
+    const EdgeCache cache = cacheOf(stamps);
     for (const std::int64_t stamp : stamps) {
-      expectMatchesUpperBound(stamps, stamp);
-      expectMatchesUpperBound(stamps, stamp == kMin ? kMin : stamp - 1);
-      expectMatchesUpperBound(stamps, stamp == kMax ? kMax : stamp + 1);
+      expectMatchesUpperBound(cache, stamps, stamp);
+      expectMatchesUpperBound(cache, stamps, stamp == kMin ? kMin : stamp - 1);
+      expectMatchesUpperBound(cache, stamps, stamp == kMax ? kMax : stamp + 1);
     }
     for (const std::int64_t stamp : {kMin, std::int64_t{-1}, std::int64_t{0}, std::int64_t{1}, kMax}) {
-      expectMatchesUpperBound(stamps, stamp);
+      expectMatchesUpperBound(cache, stamps, stamp);
     }
   }
 }
 
-TEST(SortedStamps, CountsAtOrBeforeForRandomStamps) {
+TEST(EdgeCache, FindsTheNewestAtOrBeforeForRandomStamps) {
   std::mt19937_64 random(7);
   for (int round = 0; round < 300; ++round) {
     const std::int64_t range = std::int64_t{1} << std::uniform_int_distribution<int>(1, 62)(random);
     std::uniform_int_distribution<std::int64_t> any(-range, range);
-    std::vector<std::int64_t> stamps(std::uniform_int_distribution<std::size_t>(1, 200)(random));
+    std::vector<std::int64_t> stamps(std::uniform_int_distribution<std::size_t>(1, 1000)(random));
     std::generate(stamps.begin(), stamps.end(), [&] { return any(random); });
     std::sort(stamps.begin(), stamps.end());
     stamps.erase(std::unique(stamps.begin(), stamps.end()), stamps.end());
+    const EdgeCache cache = cacheOf(stamps);
     for (int query = 0; query < 50; ++query) {
-      expectMatchesUpperBound(stamps, any(random));
-      expectMatchesUpperBound(stamps, stamps[random() % stamps.size()]);
+      expectMatchesUpperBound(cache, stamps, any(random));
+      expectMatchesUpperBound(cache, stamps, stamps[random() % stamps.size()]);
     }
   }
 }
@@ -72,11 +91,11 @@ TEST(EdgeCache, HoldsLastSampleForwardWithoutLimit) {
   EdgeCache cache;
   cache.insert(TimePoint{100}, translate(1, 0, 0));
   cache.insert(TimePoint{200}, translate(2, 0, 0));
-  EXPECT_EQ(cache.at(TimePoint{99}), nullptr);
-  EXPECT_DOUBLE_EQ(cache.at(TimePoint{100})->translation.x, 1.0);
-  EXPECT_DOUBLE_EQ(cache.at(TimePoint{199})->translation.x, 1.0);
-  EXPECT_DOUBLE_EQ(cache.at(TimePoint{200})->translation.x, 2.0);
-  EXPECT_DOUBLE_EQ(cache.at(TimePoint{kMax})->translation.x, 2.0);
+  EXPECT_EQ(cache.find(TimePoint{99}), nullptr);
+  EXPECT_DOUBLE_EQ(cache.find(TimePoint{100})->parent_from_child.translation.x, 1.0);
+  EXPECT_DOUBLE_EQ(cache.find(TimePoint{199})->parent_from_child.translation.x, 1.0);
+  EXPECT_DOUBLE_EQ(cache.find(TimePoint{200})->parent_from_child.translation.x, 2.0);
+  EXPECT_DOUBLE_EQ(cache.find(TimePoint{kMax})->parent_from_child.translation.x, 2.0);
 }
 
 TEST(EdgeCache, SameStampReplaces) {
@@ -86,8 +105,8 @@ TEST(EdgeCache, SameStampReplaces) {
   cache.insert(TimePoint{kMin}, translate(3, 0, 0));
   cache.insert(TimePoint{kMax}, translate(4, 0, 0));
   EXPECT_EQ(cache.size(), 2u);
-  EXPECT_DOUBLE_EQ(cache.at(TimePoint{kMin})->translation.x, 3.0);
-  EXPECT_DOUBLE_EQ(cache.at(TimePoint{kMax})->translation.x, 4.0);
+  EXPECT_DOUBLE_EQ(cache.find(TimePoint{kMin})->parent_from_child.translation.x, 3.0);
+  EXPECT_DOUBLE_EQ(cache.find(TimePoint{kMax})->parent_from_child.translation.x, 4.0);
 }
 
 TEST(EdgeCache, AnyOrderOfArrivalEqualsAMap) {
@@ -113,10 +132,10 @@ TEST(EdgeCache, AnyOrderOfArrivalEqualsAMap) {
     ASSERT_EQ(cache.last().ns, model.rbegin()->first);
     for (std::int64_t stamp = -2100; stamp <= 2100; ++stamp) {
       const auto after = model.upper_bound(stamp);
-      const RigidTransform* pose = cache.at(TimePoint{stamp});
-      ASSERT_EQ(pose == nullptr, after == model.begin());
-      if (pose != nullptr) {
-        ASSERT_EQ(static_cast<int>(pose->translation.x), static_cast<int>(std::prev(after)->second));
+      const EdgeCache::Sample* found = cache.find(TimePoint{stamp});
+      ASSERT_EQ(found == nullptr, after == model.begin());
+      if (found != nullptr) {
+        ASSERT_EQ(static_cast<int>(found->parent_from_child.translation.x), static_cast<int>(std::prev(after)->second));
       }
     }
   }

@@ -27,6 +27,7 @@ constexpr std::size_t kChains = 8;  // the worst of them counts
 /// A chain in the form that each method starts from.
 struct Chain {
   std::vector<RigidTransform> links;
+  std::vector<const RigidTransform*> pointers;
   std::vector<glm::dmat4> matrices;
   std::vector<glm::mat4> float_matrices;
   RigidReference expected;
@@ -45,7 +46,10 @@ Chain randomChain(std::mt19937_64& random, std::size_t depth, double offset) {
     chain.float_matrices.emplace_back(chain.matrices.back());
     chain.expected = chain.expected * RigidReference(link);
   }
-  return chain;
+  for (const RigidTransform& link : chain.links) {
+    chain.pointers.push_back(&link);
+  }
+  return chain;  // moved or elided: the pointers stay good
 }
 
 template <typename Matrix>
@@ -67,9 +71,7 @@ RigidTransform plainProduct(const Chain& chain) {
 
 RigidTransform compensatedProduct(const Chain& chain) {
   tf::ChainAccumulator product;
-  for (const RigidTransform& link : chain.links) {
-    product.append(link);
-  }
+  product.append(chain.pointers);
   return product.narrow();
 }
 

@@ -76,11 +76,21 @@ void addInserts(std::vector<BenchLine>& lines, double budget) {
 void addReaders(std::vector<BenchLine>& lines, double budget) {
   const ChainWorkload chain(16, 6000);
   const auto buffer = chain.load();
-  const double alone = lookupsPerSecond(*buffer, chain, 1, 0, budget);
-  lines.push_back({"tf reader beside a reader, of its rate alone",
-                   lookupsPerSecond(*buffer, chain, 2, 0, budget) / 2.0 / alone, "", 0.8, false});
-  lines.push_back({"tf reader beside a bulk writer, of its rate alone",
-                   lookupsPerSecond(*buffer, chain, 1, 1, budget) / alone, "", 1.0 / 3.0, false});
+  // The best of turns: what else the machine does in one of them is not the buffer's doing.
+  double alone = 0.0;
+  double beside_reader = 0.0;
+  double beside_writer = 0.0;
+  constexpr int kTurns = 4;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const auto lookups = [&](int readers, int writers) {
+      return sharedRates(*buffer, chain, readers, writers, budget / kTurns).lookups_per_s;
+    };
+    alone = std::max(alone, lookups(1, 0));
+    beside_reader = std::max(beside_reader, lookups(2, 0) / 2.0);
+    beside_writer = std::max(beside_writer, lookups(1, 1));
+  }
+  lines.push_back({"tf reader beside a reader, of its rate alone", beside_reader / alone, "", 0.8, false});
+  lines.push_back({"tf reader beside a bulk writer, of its rate alone", beside_writer / alone, "", 1.0 / 3.0, false});
 }
 
 }  // namespace

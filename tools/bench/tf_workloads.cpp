@@ -69,10 +69,11 @@ std::unique_ptr<tf::TransformBuffer> makeRandomTree(std::size_t frames) {
   return buffer;
 }
 
-double lookupsPerSecond(tf::TransformBuffer& buffer, const ChainWorkload& chain, int readers, int writers,
+SharedRates sharedRates(tf::TransformBuffer& buffer, const ChainWorkload& chain, int readers, int writers,
                         double seconds) {
   std::atomic<bool> stop{false};
   std::atomic<std::uint64_t> lookups{0};
+  std::atomic<std::uint64_t> inserts{0};
   const tf::FrameId root = *buffer.findFrame(chain.root());
   const tf::FrameId leaf = *buffer.findFrame(chain.leaf());
   std::vector<std::jthread> threads;
@@ -92,7 +93,8 @@ double lookupsPerSecond(tf::TransformBuffer& buffer, const ChainWorkload& chain,
   for (int writer = 0; writer < writers; ++writer) {
     threads.emplace_back([&] {
       while (!stop.load(std::memory_order_relaxed)) {
-        buffer.insertBulk(chain.samples());  // the same stamps again: replaced, the history does not grow
+        // The same stamps again: replaced, the history does not grow.
+        inserts += buffer.insertBulk(chain.samples()).inserted;
       }
     });
   }
@@ -100,7 +102,7 @@ double lookupsPerSecond(tf::TransformBuffer& buffer, const ChainWorkload& chain,
   stop = true;
   threads.clear();
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  return static_cast<double>(lookups.load()) / elapsed.count();
+  return {static_cast<double>(lookups.load()) / elapsed.count(), static_cast<double>(inserts.load()) / elapsed.count()};
 }
 
 }  // namespace stillframe::bench

@@ -40,8 +40,13 @@ class ChainWorkload {
 /// A tree of `frames` frames, each below a random earlier one, with one second of 100 Hz samples an edge.
 [[nodiscard]] std::unique_ptr<tf::TransformBuffer> makeRandomTree(std::size_t frames);
 
-/// Lookups a second of `readers` threads together over `seconds`, while `writers` threads insert in bulk.
-[[nodiscard]] double lookupsPerSecond(tf::TransformBuffer& buffer, const ChainWorkload& chain, int readers, int writers,
+struct SharedRates {
+  double lookups_per_s = 0.0;  ///< of all readers together
+  double inserts_per_s = 0.0;  ///< of all writers together
+};
+
+/// `readers` threads looking up over `seconds`, while `writers` threads insert in bulk.
+[[nodiscard]] SharedRates sharedRates(tf::TransformBuffer& buffer, const ChainWorkload& chain, int readers, int writers,
                                       double seconds);
 
 }  // namespace stillframe::bench

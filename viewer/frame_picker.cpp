@@ -5,11 +5,12 @@
 #include <QListView>
 #include <QSignalBlocker>
 #include <QStringList>
-#include <QWheelEvent>
+#include <utility>
 
 namespace stillframe::viewer {
 
-FramePicker::FramePicker(QWidget* parent) : QComboBox(parent) {
+FramePicker::FramePicker(QString what, QString meaning, QWidget* parent)
+    : QComboBox(parent), what_(std::move(what)), meaning_(std::move(meaning)) {
   setEditable(true);
   setInsertPolicy(QComboBox::NoInsert);
   setMaxVisibleItems(25);
@@ -86,9 +87,8 @@ void FramePicker::showCurrent() {
     colors.setColor(QPalette::Text, QColor(0xe5, 0x53, 0x4b));
   }
   lineEdit()->setPalette(colors);
-  setToolTip(is_missing_
-                 ? tr("Fixed frame \"%1\" does not exist in this recording").arg(QString::fromStdString(*chosen_))
-                 : tr("Fixed frame: the frame that stands still. Type to search."));
+  setToolTip(is_missing_ ? tr("%1 \"%2\" does not exist in this recording").arg(what_, QString::fromStdString(*chosen_))
+                         : tr("%1: %2. Type to search.").arg(what_, meaning_));
 }
 
 void FramePicker::pickText() {

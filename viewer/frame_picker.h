@@ -7,13 +7,14 @@
 
 namespace stillframe::viewer {
 
-/// Fixed-frame picker: "auto (map)" first, then every frame ever seen, with search; a name that does not exist (yet)
+/// Frame picker: "auto (map)" first, then every frame ever seen, with search; a name that does not exist (yet)
 /// may be typed and is shown as missing. GUI thread.
 class FramePicker : public QComboBox {
   Q_OBJECT
 
  public:
-  explicit FramePicker(QWidget* parent = nullptr);
+  /// `what` names it in its tool tip ("Fixed frame"), `meaning` says what the frame is for.
+  FramePicker(QString what, QString meaning, QWidget* parent = nullptr);
 
   /// All frames in order of first appearance. Cheap when the count is the one already shown.
   void setFrames(const std::vector<std::string>& frames);
@@ -30,6 +31,8 @@ class FramePicker : public QComboBox {
   void pickText();
   void showCurrent();
 
+  QString what_;
+  QString meaning_;
   std::optional<std::string> chosen_;
   std::string automatic_;
   bool is_missing_ = false;

@@ -54,6 +54,12 @@ void draw(QPainter& painter, const QPen& pen, TransportIcon icon) {
       painter.drawLine(4, 24, 16, 24);
       painter.drawLine(32, 24, 44, 24);
       return;
+    case TransportIcon::Target:
+      outline();
+      painter.drawEllipse(QPointF(24, 24), 17, 17);
+      painter.drawEllipse(QPointF(24, 24), 8, 8);
+      painter.drawPoint(24, 24);
+      return;
     case TransportIcon::SplitRight:
       outline();
       painter.drawRect(7, 10, 34, 28);

@@ -5,7 +5,19 @@
 namespace stillframe::viewer {
 
 /// Signs that the system's icon theme may lack, drawn in the palette's text colour.
-enum class TransportIcon { Play, Pause, StepBack, StepForward, Loop, Recenter, SplitRight, SplitBelow, Close, Layers };
+enum class TransportIcon {
+  Play,
+  Pause,
+  StepBack,
+  StepForward,
+  Loop,
+  Recenter,
+  Target,
+  SplitRight,
+  SplitBelow,
+  Close,
+  Layers
+};
 
 [[nodiscard]] QIcon transportIcon(TransportIcon icon);
 

@@ -6,6 +6,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "viewer/camera_bar.h"
 #include "viewer/frame_picker.h"
 #include "viewer/icons.h"
 #include "viewer/layer_panel.h"
@@ -33,10 +34,11 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   auto* label = new QLabel(tr("Fixed frame"), bar);
   bar_layout->addSpacing(4);
   bar_layout->addWidget(label);
-  picker_ = new FramePicker(bar);
+  picker_ = new FramePicker(tr("Fixed frame"), tr("the frame that stands still"), bar);
   picker_->setObjectName(QStringLiteral("fixedFrame"));
   bar_layout->addWidget(picker_);
-  bar_layout->addStretch(1);
+  auto* place_of_camera_bar = new QHBoxLayout;
+  bar_layout->addLayout(place_of_camera_bar, 1);
   auto* recenter = addButton(*bar, QStringLiteral("recenter"), transportIcon(TransportIcon::Recenter),
                              tr("Look at everything (Home)"));
   auto* split_right = addButton(*bar, QStringLiteral("splitRight"), transportIcon(TransportIcon::SplitRight),
@@ -50,6 +52,8 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   layers_ = new LayerPanel(splitter_);
   layers_->setObjectName(QStringLiteral("layerPanel"));
   view_ = new SceneWidget(splitter_);
+  camera_bar_ = new CameraBar(*view_, bar);
+  place_of_camera_bar->addWidget(camera_bar_);
   splitter_->setStretchFactor(0, 0);
   splitter_->setStretchFactor(1, 1);
   splitter_->setSizes({kLayerPanelWidth, 3 * kLayerPanelWidth});
@@ -136,7 +140,7 @@ void ViewPanel::takeGrowth() {
 
 void ViewPanel::homeUnlessTouched() {
   if (!view_->isCameraTouched()) {
-    view_->home();
+    view_->resetView();
   }
 }
 
@@ -151,6 +155,7 @@ void ViewPanel::refreshFrames() {
   }
   picker_->setCurrent(scene->isFixedFrameExplicit() ? std::optional(scene->fixedFrame()) : std::nullopt,
                       scenegraph::automaticFixedFrame(buffer));
+  camera_bar_->refresh();
 }
 
 ViewState ViewPanel::state() const {
@@ -163,9 +168,10 @@ ViewState ViewPanel::state() const {
   if (scene->isFixedFrameExplicit()) {
     state.fixed_frame = scene->fixedFrame();
   }
-  if (view_->isCameraTouched()) {
-    state.camera = view_->camera().state();
-  }
+  state.viewpoint = view_->camera().state();
+  state.is_camera_touched = view_->isCameraTouched();
+  state.saved_views = view_->savedViews();
+  state.has_smooth_moves = view_->hasSmoothMoves();
   for (const auto& slot : scene->layers()) {
     state.layers[slot->topic] = {slot->layer->isVisible(), slot->layer->settings()};
   }
@@ -189,8 +195,11 @@ void ViewPanel::setState(const ViewState& state) {
       Q_EMIT refused(QString::fromStdString(topic + ": " + applied.error().message));
     }
   }
-  if (state.camera) {
-    view_->setCameraState(*state.camera);
+  view_->setSavedViews(state.saved_views);
+  view_->setSmoothMoves(state.has_smooth_moves);
+  view_->setViewpoint(state.viewpoint);
+  if (!state.is_camera_touched) {
+    view_->resetView();
   }
   layers_->refresh();
   refreshFrames();

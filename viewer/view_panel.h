@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scenegraph/camera/orbit_camera.h"
+#include "scenegraph/camera/view_camera.h"
 #include "scenegraph/scene.h"
 #include "viewer/layer_choices.h"
 
@@ -16,19 +16,23 @@ class QToolButton;
 
 namespace stillframe::viewer {
 
+class CameraBar;
 class FramePicker;
 class LayerPanel;
 class SceneWidget;
 
-/// All that makes a view what it is, in plain values: what a copy of it takes over.
+/// All that makes a view what it is, in plain values: what a copy of it takes over, and what is saved and restored.
 struct ViewState {
   struct LayerState {
     bool is_visible = true;
     scenegraph::SettingTexts settings;
   };
   std::optional<std::string> fixed_frame;
-  std::optional<scenegraph::OrbitCamera::State> camera;  ///< absent: the default view
-  std::map<std::string, LayerState> layers;              ///< by topic
+  scenegraph::ViewpointState viewpoint;
+  bool is_camera_touched = false;  ///< false: whatever there is to see is in sight
+  std::vector<scenegraph::SavedView> saved_views;
+  bool has_smooth_moves = true;
+  std::map<std::string, LayerState> layers;  ///< by topic
   bool shows_layers = true;
 };
 
@@ -54,6 +58,7 @@ class ViewPanel : public QWidget {
 
   [[nodiscard]] SceneWidget& view() noexcept { return *view_; }
   [[nodiscard]] FramePicker& framePicker() noexcept { return *picker_; }
+  [[nodiscard]] CameraBar& cameraBar() noexcept { return *camera_bar_; }
   [[nodiscard]] LayerPanel& layerPanel() noexcept { return *layers_; }
 
  Q_SIGNALS:
@@ -68,6 +73,7 @@ class ViewPanel : public QWidget {
 
   SceneWidget* view_ = nullptr;
   FramePicker* picker_ = nullptr;
+  CameraBar* camera_bar_ = nullptr;
   LayerPanel* layers_ = nullptr;
   QSplitter* splitter_ = nullptr;
   QToolButton* layers_button_ = nullptr;

@@ -1,5 +1,6 @@
 #include "scenegraph/camera/picking.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
@@ -25,28 +26,30 @@ std::optional<ScreenPoint> toScreen(const CameraView& view, const PictureSize& s
   return ScreenPoint{position_px, depth};
 }
 
-std::optional<FramePick> pickFrame(const FrameGraph& frames, const CameraView& view, const PictureSize& size,
-                                   const glm::dvec2& cursor_px, double reach_px) {
-  const auto& fixed_from_frames = frames.snapshot().root_from_frame;
-  std::optional<FramePick> best;
-  tf::FrameId best_frame = tf::kNoFrame;
-  for (tf::FrameId frame = 0; frame < fixed_from_frames.size(); ++frame) {
-    const auto& fixed_from_frame = fixed_from_frames[frame];
+std::vector<FramePick> pickFrames(const tf::TransformBuffer& buffer, const tf::Snapshot& fixed_from_frames,
+                                  const CameraView& view, const PictureSize& size, const glm::dvec2& cursor_px,
+                                  double reach_px, std::size_t most) {
+  struct NearFrame {
+    double distance_px = 0.0;
+    double depth_m = 0.0;
+    tf::FrameId frame = tf::kNoFrame;
+  };
+  std::vector<NearFrame> near;
+  for (tf::FrameId frame = 0; frame < fixed_from_frames.root_from_frame.size(); ++frame) {
+    const auto& fixed_from_frame = fixed_from_frames.root_from_frame[frame];
     const auto at = fixed_from_frame ? toScreen(view, size, fixed_from_frame->translation) : std::nullopt;
-    if (!at) {
-      continue;
-    }
-    const double distance = glm::length(at->position_px - cursor_px);
-    if (distance <= reach_px &&
-        (!best || std::tie(distance, at->depth_m) < std::tie(best->distance_px, best->depth_m))) {
-      best = FramePick{{}, distance, at->depth_m};
-      best_frame = frame;
+    const double distance_px = at ? glm::length(at->position_px - cursor_px) : 0.0;
+    if (at && distance_px <= reach_px) {
+      near.push_back({distance_px, at->depth_m, frame});
     }
   }
-  if (best) {
-    best->frame = frames.buffer().frameName(best_frame);
+  std::ranges::sort(near, {}, [](const NearFrame& one) { return std::tie(one.distance_px, one.depth_m, one.frame); });
+  near.resize(std::min(near.size(), most));
+  std::vector<FramePick> picks;
+  for (const NearFrame& one : near) {
+    picks.push_back({buffer.frameName(one.frame), one.distance_px, one.depth_m});
   }
-  return best;
+  return picks;
 }
 
 }  // namespace stillframe::scenegraph

@@ -4,9 +4,10 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scenegraph/camera/camera.h"
-#include "scenegraph/frame_graph.h"
+#include "tf/transform_buffer.h"
 
 namespace stillframe::scenegraph {
 
@@ -34,9 +35,12 @@ struct FramePick {
   double depth_m = 0.0;
 };
 
-/// The frame whose origin is nearest to the cursor in the picture, within `reach_px`; of origins at the same pixel the
-/// nearest to the eye, then the one first seen. Never one behind the eye or without a place at this tick. O(frames).
-[[nodiscard]] std::optional<FramePick> pickFrame(const FrameGraph& frames, const CameraView& view,
-                                                 const PictureSize& size, const glm::dvec2& cursor_px, double reach_px);
+/// The frames whose origins are nearest to the cursor in the picture, within `reach_px`: by distance from the cursor,
+/// of origins at the same pixel the nearest to the eye, then the one first seen. At most `most`. Never one behind the
+/// eye or without a place in `fixed_from_frames`. O(frames).
+[[nodiscard]] std::vector<FramePick> pickFrames(const tf::TransformBuffer& buffer,
+                                                const tf::Snapshot& fixed_from_frames, const CameraView& view,
+                                                const PictureSize& size, const glm::dvec2& cursor_px, double reach_px,
+                                                std::size_t most = 1);
 
 }  // namespace stillframe::scenegraph

@@ -132,13 +132,13 @@ TEST_F(InspectorWindowTest, SplitViewTakesOverTheStateAndGoesItsOwnWay) {
   ASSERT_NE(view(0).scene()->findLayer("/points"), nullptr);
   view(0).setFixedFrame("odom");
   auto state = view(0).camera().state();
-  state.radius_m = 3.25;
-  view(0).setCameraState(state);
+  state.camera.orbit.radius_m = 3.25;
+  view(0).setViewpoint(state);
   view(0).scene()->findLayer("/points")->layer->setVisible(false);
   ViewPanel& copy = window_->addView(window_->views().front(), Qt::Vertical);
   settle();
   EXPECT_EQ(copy.view().scene()->fixedFrame(), "odom");
-  EXPECT_DOUBLE_EQ(copy.view().camera().state().radius_m, 3.25);
+  EXPECT_DOUBLE_EQ(copy.view().camera().sight().radius_m, 3.25);
   EXPECT_FALSE(copy.view().scene()->findLayer("/points")->layer->isVisible());
   copy.view().setFixedFrame("base_link");
   EXPECT_EQ(view(0).scene()->fixedFrame(), "odom");
@@ -154,7 +154,7 @@ TEST_F(InspectorWindowTest, SplitViewTakesOverTheStateAndGoesItsOwnWay) {
 TEST_F(InspectorWindowTest, ClickingAFrameLooksAtIt) {
   openAndLoad({.files = {"robot.mcap"}, .time = "+4"});
   Q_EMIT window_->frameTree().framePicked(QStringLiteral("base_link"));
-  EXPECT_DOUBLE_EQ(view(0).camera().state().focal_point.x, 4.0);
+  EXPECT_DOUBLE_EQ(view(0).camera().sight().focal_point.x, 4.0);
 }
 
 TEST_F(InspectorWindowTest, SpaceAndArrowsDriveTheTimeBar) {
@@ -176,11 +176,11 @@ TEST_F(InspectorWindowTest, MovedCameraIsNotTakenAwayWhenLoadingEnds) {
   open({.files = {"robot.mcap"}});
   ASSERT_TRUE(waitFor([&] { return window_->dataset() != nullptr; }));
   auto state = view(0).camera().state();
-  state.radius_m = 77.0;
-  view(0).setCameraState(state);
+  state.camera.orbit.radius_m = 77.0;
+  view(0).setViewpoint(state);
   ASSERT_TRUE(waitFor([&] { return window_->isComplete(); }));
   settle();
-  EXPECT_DOUBLE_EQ(view(0).camera().state().radius_m, 77.0);
+  EXPECT_DOUBLE_EQ(view(0).camera().sight().radius_m, 77.0);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ Picked& listen(FramePicker& picker, Picked& picked) {
 }
 
 TEST(FramePicker, ListsAutomaticChoiceFirstAndFillsIn) {
-  FramePicker picker;
+  FramePicker picker("Fixed frame", "the frame that stands still");
   picker.setFrames({"odom", "base_link"});
   picker.setCurrent(std::nullopt, "odom");
   EXPECT_EQ(picker.currentText(), QStringLiteral("auto (odom)"));
@@ -50,7 +50,7 @@ TEST(FramePicker, ListsAutomaticChoiceFirstAndFillsIn) {
 }
 
 TEST(FramePicker, TypedNameIsPicked) {
-  FramePicker picker;
+  FramePicker picker("Fixed frame", "the frame that stands still");
   Picked picked;
   listen(picker, picked);
   picker.setFrames({"odom", "base_link"});
@@ -64,7 +64,7 @@ TEST(FramePicker, TypedNameIsPicked) {
 }
 
 TEST(FramePicker, MissingFrameIsShownAsMissingUntilItAppears) {
-  FramePicker picker;
+  FramePicker picker("Fixed frame", "the frame that stands still");
   picker.setFrames({"odom"});
   picker.setCurrent("map", "odom");
   EXPECT_TRUE(picker.isMissing());
@@ -75,7 +75,7 @@ TEST(FramePicker, MissingFrameIsShownAsMissingUntilItAppears) {
 }
 
 TEST(FramePicker, GrowthDoesNotDisturbTyping) {
-  FramePicker picker;
+  FramePicker picker("Fixed frame", "the frame that stands still");
   picker.setFrames({"odom"});
   picker.lineEdit()->selectAll();
   QTest::keyClicks(picker.lineEdit(), QStringLiteral("ba"));

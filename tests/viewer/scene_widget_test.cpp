@@ -24,6 +24,7 @@ class SceneWidgetTest : public testing::Test {
  protected:
   SceneWidgetTest() {
     widget_->resize(400, 300);
+    widget_->setSmoothMoves(false);
     widget_->setDataset(dataset_, *executor_);
     widget_->scene()->addDefaultLayers();
     widget_->setTime(TimePoint{1_s});
@@ -48,6 +49,12 @@ class SceneWidgetTest : public testing::Test {
     QMouseEvent event(QEvent::MouseMove, position, widget_->mapToGlobal(position), Qt::NoButton, Qt::NoButton,
                       Qt::NoModifier);
     QCoreApplication::sendEvent(widget_.get(), &event);
+  }
+
+  void look(const scenegraph::Sight& sight) {
+    auto viewpoint = widget_->camera().state();
+    viewpoint.camera.orbit = sight;
+    widget_->setViewpoint(viewpoint);
   }
 
   int drawn() { return test::drawnPixels(widget_->grabFramebuffer()); }
@@ -103,44 +110,44 @@ TEST_F(SceneWidgetTest, TickMovesThePicture) {
 
 TEST_F(SceneWidgetTest, MouseChangesTheCameraAsDocumented) {
   show();
-  const auto start = widget_->camera().state();
+  const auto start = widget_->camera().sight();
   QTest::mousePress(widget_.get(), Qt::LeftButton, {}, {200, 150});
   QTest::mouseMove(widget_.get(), {260, 150});
   QTest::mouseRelease(widget_.get(), Qt::LeftButton, {}, {260, 150});
-  const auto turned = widget_->camera().state();
+  const auto turned = widget_->camera().sight();
   EXPECT_GT(std::abs(turned.yaw_rad - start.yaw_rad), 0.1);
   EXPECT_EQ(turned.focal_point, start.focal_point);
 
   QTest::mousePress(widget_.get(), Qt::MiddleButton, {}, {200, 150});
   QTest::mouseMove(widget_.get(), {200, 190});
   QTest::mouseRelease(widget_.get(), Qt::MiddleButton, {}, {200, 190});
-  const auto panned = widget_->camera().state();
+  const auto panned = widget_->camera().sight();
   EXPECT_GT(glm::length(panned.focal_point - turned.focal_point), 1e-3);
   EXPECT_EQ(panned.yaw_rad, turned.yaw_rad);
 
   QWheelEvent wheel({200, 150}, widget_->mapToGlobal(QPointF(200, 150)), {}, {0, 120}, Qt::NoButton, Qt::NoModifier,
                     Qt::NoScrollPhase, false);
   QCoreApplication::sendEvent(widget_.get(), &wheel);
-  EXPECT_NEAR(widget_->camera().state().radius_m, panned.radius_m * 0.9, 1e-9);
+  EXPECT_NEAR(widget_->camera().sight().radius_m, panned.radius_m * 0.9, 1e-9);
   EXPECT_TRUE(widget_->isCameraTouched());
 
   QTest::keyClick(widget_.get(), Qt::Key_Home);
   settle();
   EXPECT_FALSE(widget_->isCameraTouched());
-  EXPECT_EQ(widget_->camera().state(), start);
+  EXPECT_EQ(widget_->camera().sight(), start);
 }
 
 TEST_F(SceneWidgetTest, DefaultViewWaitsForTheFirstData) {
   widget_->setTime(TimePoint{0});
   show();
-  const auto axes_only = widget_->camera().state();
+  const auto axes_only = widget_->camera().sight();
   widget_->setTime(TimePoint{1_s});
   settle();
-  const auto with_cloud = widget_->camera().state();
+  const auto with_cloud = widget_->camera().sight();
   EXPECT_NE(with_cloud.radius_m, axes_only.radius_m);
   widget_->setTime(TimePoint{9_s});
   settle();
-  EXPECT_EQ(widget_->camera().state(), with_cloud) << "once: scrubbing must not move the camera";
+  EXPECT_EQ(widget_->camera().sight(), with_cloud) << "once: scrubbing must not move the camera";
 }
 
 TEST_F(SceneWidgetTest, HoverNamesTheFrameUnderTheCursor) {
@@ -152,7 +159,7 @@ TEST_F(SceneWidgetTest, HoverNamesTheFrameUnderTheCursor) {
   settle();
   const auto fixed_from_lidar = widget_->scene()->frames().fixedFromFrame("lidar");
   ASSERT_TRUE(fixed_from_lidar.has_value());
-  const auto at = scenegraph::toScreen(widget_->camera().view(), {400.0, 300.0}, fixed_from_lidar->translation);
+  const auto at = scenegraph::toScreen(widget_->shownView(), {400.0, 300.0}, fixed_from_lidar->translation);
   ASSERT_TRUE(at.has_value());
   moveMouse({at->position_px.x + 3.0, at->position_px.y});
   EXPECT_EQ(hovered, QStringLiteral("lidar"));
@@ -162,19 +169,19 @@ TEST_F(SceneWidgetTest, HoverNamesTheFrameUnderTheCursor) {
 
 TEST_F(SceneWidgetTest, DoubleClickDoesNothing) {
   show();
-  const auto before = widget_->camera().state();
+  const auto before = widget_->camera().sight();
   QTest::mouseDClick(widget_.get(), Qt::LeftButton, {}, {100, 100});
-  EXPECT_EQ(widget_->camera().state(), before);
+  EXPECT_EQ(widget_->camera().sight(), before);
 }
 
 TEST_F(SceneWidgetTest, FKeyFramesEverythingFromThePresentDirection) {
   show();
-  auto state = widget_->camera().state();
+  auto state = widget_->camera().sight();
   state.focal_point = {500.0, 500.0, 0.0};
   state.yaw_rad = 1.0;
-  widget_->setCameraState(state);
+  look(state);
   QTest::keyClick(widget_.get(), Qt::Key_F);
-  const auto framed = widget_->camera().state();
+  const auto framed = widget_->camera().sight();
   EXPECT_DOUBLE_EQ(framed.yaw_rad, 1.0);
   EXPECT_LT(glm::length(framed.focal_point), 20.0);
 }
@@ -270,11 +277,12 @@ TEST_F(SceneWidgetTest, TwoViewsOfOneDatasetHaveTheirOwnFixedFrames) {
 TEST_F(SceneWidgetTest, FixedFrameChangeKeepsLookingAtTheSamePlace) {
   widget_->setTime(TimePoint{5_s});
   show();
-  auto state = widget_->camera().state();
+  auto state = widget_->camera().sight();
   state.focal_point = {5.0, 1.0, 0.0};
-  widget_->setCameraState(state);
+  look(state);
   widget_->setFixedFrame("base_link");
-  const auto carried = widget_->camera().state();
+  settle();
+  const auto carried = widget_->camera().sight();
   EXPECT_NEAR(carried.focal_point.x, 0.0, 1e-12);
   EXPECT_NEAR(carried.focal_point.y, 1.0, 1e-12);
 }

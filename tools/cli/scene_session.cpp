@@ -1,12 +1,13 @@
 #include "tools/cli/scene_session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/trigonometric.hpp>
 #include <iterator>
 
 #include "nodes/registry.h"
-#include "scenegraph/camera/orbit_camera.h"
 #include "scenegraph/near_names.h"
+#include "scenegraph/osg_box.h"
 
 namespace stillframe::cli {
 
@@ -22,7 +23,8 @@ Result<std::unique_ptr<SceneSession>> SceneSession::make(const ViewOptions& opti
   session->executor_ = scenegraph::makeSynchronousExecutor();
   session->scene_ =
       std::make_unique<scenegraph::Scene>(session->recording_->dataset(), nodes::layerTypes(), *session->executor_);
-  for (const auto step : {&SceneSession::chooseTime, &SceneSession::addLayers, &SceneSession::chooseFrame}) {
+  for (const auto step :
+       {&SceneSession::chooseTime, &SceneSession::addLayers, &SceneSession::chooseFrame, &SceneSession::placeCamera}) {
     if (const auto done = ((*session).*step)(); !done) {
       return std::unexpected(done.error());
     }
@@ -96,6 +98,7 @@ Result<void> SceneSession::chooseFrame() {
 void SceneSession::showTime(tf::TimePoint time) {
   time_ = time;
   updateFully();
+  follow_.track(followedPose(), rig_);
 }
 
 void SceneSession::updateFully() {
@@ -111,29 +114,65 @@ void SceneSession::updateFully() {
   scene_->update(time_);
 }
 
-scenegraph::CameraView SceneSession::camera() const {
+scenegraph::Follow::Pose SceneSession::followedPose() const {
+  const auto pose = options_.follow_frame ? scene_->frames().fixedFromFrame(*options_.follow_frame)
+                                          : std::expected<tf::RigidTransform, tf::LookupFailure>{};
+  return pose && options_.follow_frame ? scenegraph::Follow::Pose(*pose) : std::nullopt;
+}
+
+Result<void> SceneSession::placeCamera() {
+  if (options_.follow_frame) {
+    const std::string& frame = *options_.follow_frame;
+    const tf::TransformBuffer& transforms = *recording_->dataset()->transforms();
+    if (!transforms.findFrame(frame)) {
+      return usageError(options_.recording.file + ": " + scenegraph::noSuch("frame", frame, transforms.frames()));
+    }
+    if (const auto pose = scene_->frames().fixedFromFrame(frame); !pose) {
+      return failure(options_.recording.file + ": '" + frame +
+                     "' cannot be followed: " + transforms.describe(pose.error()));
+    }
+  }
+  follow_.setMode(options_.follow, followedPose(), rig_);
+  follow_.reset(followedPose());
   const double aspect = static_cast<double>(options_.size.width_px) / options_.size.height_px;
-  const double fov_rad = glm::radians(options_.vertical_fov_deg);
-  const osg::BoundingBoxd box = scene_->boundsInFixed();
-  scenegraph::OrbitCamera orbit;
-  scenegraph::OrbitCamera::State state = orbit.state();
-  state.vertical_fov_rad = fov_rad;
-  orbit.setState(state);
-  if (box.valid()) {
-    orbit.frame(box, aspect);
+  scenegraph::Sight sight;
+  sight.vertical_fov_rad = glm::radians(options_.vertical_fov_deg);
+  rig_.setState({});
+  rig_.look(sight);
+  rig_.setKind(options_.camera);
+  if (options_.camera == scenegraph::CameraKind::TopDownOrtho) {
+    rig_.reset();
   }
-  state = orbit.state();
-  if (options_.look_at && !options_.eye) {
-    state.focal_point = *options_.look_at;
-    orbit.setState(state);
+  rig_.change().frame(
+      scenegraph::transformBox(tf::inverse(follow_.fixedFromCamera()), scenegraph::toBox(scene_->boundsInFixed())),
+      aspect);
+  sight = rig_.model().sight();
+  if (options_.eye) {
+    rig_.look(scenegraph::lookingFrom(*options_.eye, options_.look_at.value_or(sight.focal_point), sight));
+  } else if (options_.look_at) {
+    sight.focal_point = *options_.look_at;
+    rig_.look(sight);
   }
-  if (!options_.eye) {
-    return orbit.view();
+  if (options_.camera == scenegraph::CameraKind::TopDownOrtho) {
+    scenegraph::CameraState state = rig_.state();
+    if (options_.eye) {  // its height says nothing about the width of a picture without perspective
+      state.top_down.vertical_extent_m = sight.radius_m * 2.0 * std::tan(sight.vertical_fov_rad / 2.0);
+    }
+    state.top_down.vertical_extent_m = options_.ortho_height_m.value_or(state.top_down.vertical_extent_m);
+    rig_.setState(state);
   }
-  // Not through the orbit, which keeps its own bounds of radius and pitch: the eye is exactly where it was asked for.
-  scenegraph::CameraView view = orbit.view();
-  view.eye_from_fixed = scenegraph::lookAt(*options_.eye, options_.look_at.value_or(state.focal_point), {0, 0, 1});
-  return view;
+  return {};
+}
+
+scenegraph::CameraView SceneSession::camera() const {
+  scenegraph::CameraView view = rig_.view();
+  if (options_.eye && options_.camera != scenegraph::CameraKind::TopDownOrtho) {
+    // Not through the camera, which keeps its own bounds of radius and pitch: the eye is exactly where it was asked
+    // for.
+    view.eye_from_fixed =
+        scenegraph::lookAt(*options_.eye, options_.look_at.value_or(rig_.model().sight().focal_point), {0, 0, 1});
+  }
+  return follow_.view(view);
 }
 
 scenegraph::ExportInfo SceneSession::exportInfo() const {

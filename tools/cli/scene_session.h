@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "scenegraph/camera/camera.h"
+#include "scenegraph/camera/follow.h"
 #include "scenegraph/executor.h"
 #include "scenegraph/export/osgt_export.h"
 #include "scenegraph/scene.h"
@@ -22,7 +22,8 @@ class SceneSession {
   [[nodiscard]] tf::TimePoint time() const noexcept { return time_; }
   /// Goes to another instant, which need not lie within the recording.
   void showTime(tf::TimePoint time);
-  /// From the eye that was asked for, else one that sees all of it from above at an angle.
+  /// From the eye that was asked for, else one that sees all of it from above at an angle. It was placed at the first
+  /// instant, and has gone along with the followed frame since.
   [[nodiscard]] scenegraph::CameraView camera() const;
   /// What an exported file says of itself.
   [[nodiscard]] scenegraph::ExportInfo exportInfo() const;
@@ -32,6 +33,8 @@ class SceneSession {
   Result<void> chooseTime();
   Result<void> addLayers();
   Result<void> chooseFrame();
+  Result<void> placeCamera();
+  [[nodiscard]] scenegraph::Follow::Pose followedPose() const;
   void updateFully();
 
   ViewOptions options_;
@@ -39,6 +42,8 @@ class SceneSession {
   std::unique_ptr<scenegraph::Executor> executor_;
   std::unique_ptr<scenegraph::Scene> scene_;
   tf::TimePoint time_;
+  scenegraph::CameraRig rig_;
+  scenegraph::Follow follow_;
 };
 
 /// Applies `settings` to the layer of `slot`; `visible` is understood for every layer.

@@ -1,6 +1,33 @@
 #include "tools/cli/view_options.h"
 
+#include <tuple>
+
+#include "tf/transform_buffer.h"
+
 namespace stillframe::cli {
+
+Result<scenegraph::CameraKind> parseCamera(const std::string& text) {
+  if (const auto kind = scenegraph::cameraKindOf(text)) {
+    return *kind;
+  }
+  return usageError("--camera '" + text + "' is none of orbit, xyorbit, topdown, fly");
+}
+
+Result<std::pair<std::string, scenegraph::FollowMode>> parseFollow(const std::string& text) {
+  std::string frame = text;
+  scenegraph::FollowMode mode = scenegraph::FollowMode::Pose;
+  if (const std::size_t colon = text.rfind(':'); colon != std::string::npos) {
+    if (const auto named = scenegraph::followModeOf(text.substr(colon + 1))) {
+      mode = *named;
+      frame = text.substr(0, colon);
+    }
+  }
+  frame = std::string(tf::stripLeadingSlashes(frame));
+  if (frame.empty() || mode == scenegraph::FollowMode::Off) {
+    return usageError("--follow '" + text + "' is not FRAME or FRAME:MODE, MODE being position, heading or pose");
+  }
+  return std::pair(std::move(frame), mode);
+}
 
 ViewArguments::ViewArguments(CLI::App& command) {
   addRecordingOptions(command, options_.recording);
@@ -12,6 +39,15 @@ ViewArguments::ViewArguments(CLI::App& command) {
       ->type_name("LAYER")
       ->allow_extra_args(false);
   command.add_flag("--only", options_.only_named_layers, "Draw just the layers named by --layer");
+  command.add_option("--camera", camera_, "orbit, xyorbit, topdown (from above, without perspective) or fly")
+      ->type_name("MODEL")
+      ->capture_default_str();
+  command.add_option("--ortho-height", ortho_height_, "Metres from the picture's bottom to its top, for topdown");
+  command
+      .add_option("--follow", follow_,
+                  "FRAME[:position|heading|pose]: the eye goes along with this frame, and --eye and --look-at count "
+                  "from it")
+      ->type_name("FRAME[:MODE]");
   command.add_option("--eye", eye_, "x,y,z of the eye in the fixed frame; default: where all is seen");
   command.add_option("--look-at", look_at_, "x,y,z that the eye looks at; default: the middle of the data");
   command.add_option("--fov", fov_, "Vertical field of view in degrees, 1 to 170")->capture_default_str();
@@ -38,6 +74,28 @@ Result<ViewOptions> ViewArguments::view() const {
     return std::unexpected(fov.error());
   }
   view.vertical_fov_deg = *fov;
+  const auto camera = parseCamera(camera_);
+  if (!camera) {
+    return std::unexpected(camera.error());
+  }
+  view.camera = *camera;
+  if (!ortho_height_.empty()) {
+    const auto height = parseNumber("--ortho-height", ortho_height_, 1e-6, 1e9);
+    if (!height) {
+      return std::unexpected(height.error());
+    }
+    if (view.camera != scenegraph::CameraKind::TopDownOrtho) {
+      return usageError("--ortho-height is the height of the picture of --camera topdown");
+    }
+    view.ortho_height_m = *height;
+  }
+  if (!follow_.empty()) {
+    auto follow = parseFollow(follow_);
+    if (!follow) {
+      return std::unexpected(follow.error());
+    }
+    std::tie(view.follow_frame, view.follow) = std::move(*follow);
+  }
   const auto background = parseColor("--background", background_);
   if (!background) {
     return std::unexpected(background.error());

@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "scenegraph/camera/follow.h"
 #include "tools/cli/cli_error.h"
 #include "tools/cli/layer_argument.h"
 #include "tools/cli/recording_options.h"
@@ -20,9 +22,13 @@ struct ViewOptions {
   std::optional<std::string> fixed_frame;
   std::vector<LayerArgument> layers;
   bool only_named_layers = false;
-  std::optional<glm::dvec3> eye;      ///< in the fixed frame
-  std::optional<glm::dvec3> look_at;  ///< in the fixed frame
+  std::optional<glm::dvec3> eye;      ///< in the frame that the camera lives in: the fixed frame unless it follows
+  std::optional<glm::dvec3> look_at;  ///< in the same
   double vertical_fov_deg = 50.0;
+  scenegraph::CameraKind camera = scenegraph::CameraKind::Orbit;
+  std::optional<double> ortho_height_m;     ///< of the picture, for the camera without perspective
+  std::optional<std::string> follow_frame;  ///< absent: none
+  scenegraph::FollowMode follow = scenegraph::FollowMode::Off;
   PictureSize size;
   scenegraph::Color background{0.12F, 0.13F, 0.15F, 1.0F};
 };
@@ -41,8 +47,16 @@ class ViewArguments {
   std::string eye_;
   std::string look_at_;
   std::string fov_ = "50";
+  std::string camera_ = "orbit";
+  std::string ortho_height_;
+  std::string follow_;
   std::string size_ = "1280x720";
   std::string background_ = "#1f2126";
 };
+
+/// "orbit", "xyorbit", "topdown" or "fly".
+[[nodiscard]] Result<scenegraph::CameraKind> parseCamera(const std::string& text);
+/// "FRAME" (rigidly: pose) or "FRAME:MODE", MODE being position, heading or pose. A frame's own name may hold colons.
+[[nodiscard]] Result<std::pair<std::string, scenegraph::FollowMode>> parseFollow(const std::string& text);
 
 }  // namespace stillframe::cli

@@ -100,6 +100,46 @@ TEST(RenderCommand, LooksFromWhereItIsTold) {
   EXPECT_EQ(std::ranges::count(away.rgb, 255), std::ptrdiff_t(away.rgb.size()));
 }
 
+TEST(RenderCommand, LooksStraightDownAtTheScaleItIsTold) {
+  const TestFolder folder;
+  const std::string sample = folder.makeSample();
+  // The reference grid is 10 m wide: of 20 m from bottom to top it takes half the height of the picture.
+  const Outcome drawn =
+      run(folder.path(), {"render", sample, "--out", "a.png", "--only", "--layer", "grid", "--camera", "topdown",
+                          "--look-at", "0,0,0", "--ortho-height", "20", "--size", "80x80", "--background", "#000000"});
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  const auto picture = scenegraph::readPng(folder / "a.png").value();
+  int first_row = 80;
+  int last_row = -1;
+  for (int i = 0; i < 80 * 80; ++i) {
+    if (picture.rgb[static_cast<std::size_t>(3 * i)] > 20) {
+      first_row = std::min(first_row, i / 80);
+      last_row = std::max(last_row, i / 80);
+    }
+  }
+  EXPECT_NEAR(first_row, 20, 1);
+  EXPECT_NEAR(last_row, 60, 1);
+}
+
+TEST(RenderCommand, GoesAlongWithTheFollowedFrame) {
+  const TestFolder folder;
+  const std::string sample = folder.makeSample();
+  const auto picture = [&](const std::string& time, const std::string& follow) {
+    std::vector<std::string> arguments{
+        "render", sample, "--out", "a.png",  "--only",    "--layer", "tf:frame_filter=^base_link$,parent_lines=false",
+        "--time", time,   "--eye", "-3,1,2", "--look-at", "0,0,0",   "--size",
+        "64x64"};
+    if (!follow.empty()) {
+      arguments.insert(arguments.end(), {"--follow", follow});
+    }
+    const Outcome drawn = run(folder.path(), arguments);
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    return scenegraph::readPng(folder / "a.png").value();
+  };
+  EXPECT_EQ(picture("+0.5", "base_link"), picture("+1.9", "base_link")) << "pose: the frame stands still";
+  EXPECT_NE(picture("+0.5", ""), picture("+1.9", "")) << "and it does move";
+}
+
 TEST(RenderCommand, RefusesWhatIsNotThere) {
   const TestFolder folder;
   const std::string sample = folder.makeSample();
@@ -119,6 +159,11 @@ TEST(RenderCommand, RefusesWhatIsNotThere) {
       {{"--eye", "1,2"}, "--eye"},
       {{"--look-at", "nan,0,0"}, "--look-at"},
       {{"--fov", "180"}, "--fov"},
+      {{"--camera", "spherical"}, "topdown"},
+      {{"--camera", "topdown", "--ortho-height", "0"}, "--ortho-height"},
+      {{"--ortho-height", "5"}, "--camera topdown"},
+      {{"--follow", "no_such_frame"}, "base_link"},
+      {{"--follow", ":pose"}, "position, heading or pose"},
       {{"--background", "red"}, "red"},
   };
   for (const auto& [options, named] : mistakes) {

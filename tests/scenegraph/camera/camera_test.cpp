@@ -16,9 +16,6 @@ namespace stillframe::scenegraph {
 namespace {
 
 using test::Random;
-using test::TfBuilder;
-using test::translate;
-using namespace tf::literals;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -115,7 +112,7 @@ TEST(OrbitCamera, StaysSaneUnderEveryGestureWithEveryInput) {
         camera.zoom(a);
         camera.dolly(b, height);
         camera.setLookAt({a, b, height}, {b, a, a});
-        camera.frame(osg::BoundingBoxd(a, a, a, b, b, height), height);
+        camera.frame(Box{{a, a, a}, {b, b, height}}, height);
         ASSERT_TRUE(isSane(camera)) << a << " " << b << " " << height;
       }
     }
@@ -131,7 +128,7 @@ TEST(OrbitCamera, NonFiniteInputChangesNothing) {
   camera.zoom(kNan);
   camera.zoom(kInf);
   camera.dolly(1, 0);
-  camera.frame(osg::BoundingBoxd(), 1.0);
+  camera.frame(Box{}, 1.0);
   camera.setLookAt({kNan, 0, 0}, {0, 0, 0});
   OrbitCamera::State bad = before;
   bad.radius_m = kNan;
@@ -241,7 +238,7 @@ TEST(OrbitCamera, FrameShowsEveryCornerAtEveryScaleAndAspect) {
     const double aspect = std::pow(10.0, random.number(-1, 1));
     OrbitCamera camera;
     camera.rotate(random.number(-900, 900), random.number(-900, 900), 720.0);
-    camera.frame({low.x, low.y, low.z, high.x, high.y, high.z}, aspect);
+    camera.frame(Box{low, high}, aspect);
     for (unsigned corner = 0; corner < 8; ++corner) {
       const glm::dvec3 point((corner & 1U) != 0 ? high.x : low.x, (corner & 2U) != 0 ? high.y : low.y,
                              (corner & 4U) != 0 ? high.z : low.z);
@@ -268,95 +265,6 @@ TEST(OrbitCamera, LookAtStraightDownHasYUpInThePicture) {
   const auto north = toScreen(camera.view(), kSize, {0, 1, 0});
   EXPECT_NEAR(north->position_px.x, kSize.width_px / 2, 1e-9);
   EXPECT_LT(north->position_px.y, kSize.height_px / 2);
-}
-
-TEST(OrbitCamera, SavedStateComesBackBitForBit) {
-  Random random(13);
-  for (int i = 0; i < 300; ++i) {
-    OrbitCamera camera;
-    camera.setState({.focal_point = kEcef * random.number(-1e3, 1e3),
-                     .yaw_rad = random.number(-10, 10),
-                     .pitch_rad = random.number(-2, 2),
-                     .radius_m = std::pow(10.0, random.number(-7, 10)),
-                     .vertical_fov_rad = random.number(0, 3.2)});
-    OrbitCamera restored;
-    EXPECT_TRUE(restored.setTexts(camera.texts()));
-    EXPECT_EQ(restored.state(), camera.state());
-  }
-}
-
-TEST(OrbitCamera, RefusesTextsThatAreNoNumbersAndIgnoresUnknownKeys) {
-  OrbitCamera camera;
-  const OrbitCamera::State before = camera.state();
-  for (const char* bad : {"nan", "inf", "", "1.0x", "1e999"}) {
-    EXPECT_FALSE(camera.setTexts({{"radius_m", bad}, {"yaw_rad", "1"}})) << bad;
-    EXPECT_EQ(camera.state(), before);
-  }
-  EXPECT_TRUE(camera.setTexts({{"no_such_key", "nan"}, {"radius_m", "7"}}));
-  EXPECT_DOUBLE_EQ(camera.state().radius_m, 7.0);
-}
-
-class PickFrame : public testing::Test {
- protected:
-  PickFrame() {
-    buffer = TfBuilder()
-                 .edge("map", "left")
-                 .at(0_s, translate(0, -1, 0))
-                 .edge("map", "right")
-                 .at(0_s, translate(0, 1, 0))
-                 .edge("map", "nearer_right")
-                 .at(0_s, translate(5, 0.5, 0))
-                 .edge("map", "behind")
-                 .at(0_s, translate(20, 0, 0))
-                 .edge("map", "late")
-                 .at(10_s, translate(0, 0, 0.5))
-                 .edge("other", "elsewhere")
-                 .at(0_s, translate(0, 0, 0.5))
-                 .build();
-    graph = std::make_unique<FrameGraph>(buffer);
-    graph->setTick("map", {5_s});
-    camera.setLookAt({10, 0, 0}, {0, 0, 0});
-  }
-  std::optional<FramePick> at(double x, double y, double reach = 20.0) const {
-    return pickFrame(*graph, camera.view(), kSize, {x, y}, reach);
-  }
-  std::shared_ptr<tf::TransformBuffer> buffer;
-  std::unique_ptr<FrameGraph> graph;
-  OrbitCamera camera;
-};
-
-TEST_F(PickFrame, TakesTheNearestOriginWithinReach) {
-  const auto left = toScreen(camera.view(), kSize, {0, -1, 0});
-  const auto pick = at(left->position_px.x + 3, left->position_px.y + 4);
-  ASSERT_TRUE(pick);
-  EXPECT_EQ(pick->frame, "left");
-  EXPECT_NEAR(pick->distance_px, 5.0, 1e-9);
-  EXPECT_NEAR(pick->depth_m, 10.0, 1e-9);
-  EXPECT_FALSE(at(left->position_px.x + 30, left->position_px.y));
-}
-
-TEST_F(PickFrame, OfTwoAtOnePixelTakesTheOneNearerToTheEye) {
-  const auto right = toScreen(camera.view(), kSize, {0, 1, 0});
-  const auto nearer = toScreen(camera.view(), kSize, {5, 0.5, 0});
-  ASSERT_NEAR(right->position_px.x, nearer->position_px.x, 1e-9);
-  const auto pick = at(right->position_px.x, right->position_px.y);
-  ASSERT_TRUE(pick);
-  EXPECT_EQ(pick->frame, "nearer_right");
-}
-
-TEST_F(PickFrame, NeverPicksWhatIsBehindOrHasNoPlace) {
-  // "behind" would mirror onto the centre, "late" and "elsewhere" have no place in map at 5 s.
-  const auto pick = at(kSize.width_px / 2, kSize.height_px / 2, 2000.0);
-  ASSERT_TRUE(pick);
-  EXPECT_EQ(pick->frame, "map");
-  camera.setLookAt({-10, 0, 0}, {-20, 0, 0});
-  EXPECT_FALSE(at(kSize.width_px / 2, kSize.height_px / 2, 1e9)) << "everything is behind";
-}
-
-TEST_F(PickFrame, PicksNothingInAPictureWithoutArea) {
-  EXPECT_FALSE(pickFrame(*graph, camera.view(), {0, 0}, {0, 0}, 1e9));
-  EXPECT_FALSE(pickFrame(*graph, camera.view(), {kNan, 5}, {0, 0}, 1e9));
-  EXPECT_FALSE(at(kNan, 0));
 }
 
 }  // namespace

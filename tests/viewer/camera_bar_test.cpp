@@ -1,0 +1,112 @@
+#include "viewer/camera_bar.h"
+
+#include <gtest/gtest.h>
+
+#include <QComboBox>
+#include <QLineEdit>
+#include <QMenu>
+#include <QTest>
+
+#include "tests/viewer/viewer_support.h"
+#include "viewer/frame_picker.h"
+#include "viewer/scene_widget.h"
+#include "viewer/view_panel.h"
+
+namespace stillframe::viewer {
+namespace {
+
+using namespace tf::literals;
+using scenegraph::CameraKind;
+using scenegraph::FollowMode;
+using test::settle;
+using tf::TimePoint;
+
+class CameraBarTest : public testing::Test {
+ protected:
+  CameraBarTest() {
+    panel_.resize(900, 500);
+    panel_.view().setSmoothMoves(false);
+    panel_.setDataset(dataset_, *executor_, {});
+    panel_.view().setTime(TimePoint{5_s});
+    panel_.show();
+    if (!QTest::qWaitForWindowExposed(&panel_)) {
+      ADD_FAILURE() << "no window";
+    }
+    settle();
+  }
+  CameraBar& bar() { return panel_.cameraBar(); }
+
+  std::shared_ptr<scenegraph::Dataset> dataset_ = test::makeRobotDataset();
+  std::unique_ptr<scenegraph::Executor> executor_ = scenegraph::makeSynchronousExecutor();
+  ViewPanel panel_;
+};
+
+TEST_F(CameraBarTest, ChoosingMovesTheViewAndTheViewsKeysMoveTheChoice) {
+  QTest::keyClick(&bar().kinds(), Qt::Key_Down);
+  EXPECT_EQ(panel_.view().camera().rig().kind(), CameraKind::XyOrbit);
+  QTest::keyClick(&panel_.view(), Qt::Key_4);
+  EXPECT_EQ(bar().kinds().currentIndex(), 3);
+  QTest::keyClick(&bar().follows(), Qt::Key_End);
+  EXPECT_EQ(panel_.view().camera().follow().mode(), FollowMode::Pose);
+  QTest::keyClick(&panel_.view(), Qt::Key_T);
+  EXPECT_EQ(bar().follows().currentIndex(), 0);
+}
+
+TEST_F(CameraBarTest, DisplayFrameIsChosenApartFromTheFixedFrame) {
+  EXPECT_EQ(bar().displayFrame().currentText(), QStringLiteral("auto (map)"));
+  bar().displayFrame().lineEdit()->selectAll();
+  QTest::keyClicks(bar().displayFrame().lineEdit(), QStringLiteral("base_link"));
+  QTest::keyClick(bar().displayFrame().lineEdit(), Qt::Key_Return);
+  EXPECT_EQ(panel_.view().camera().displayFrame(), "base_link");
+  EXPECT_EQ(panel_.view().scene()->fixedFrame(), "map");
+}
+
+TEST_F(CameraBarTest, SavedViewsAreInTheMenu) {
+  panel_.view().saveView("over there");
+  Q_EMIT bar().views().aboutToShow();
+  bool is_listed = false;
+  for (const QAction* action : bar().views().actions()) {
+    is_listed = is_listed || action->text().startsWith(QStringLiteral("over there"));
+  }
+  EXPECT_TRUE(is_listed);
+}
+
+TEST_F(CameraBarTest, StateOfAViewRoundTripsExactly) {
+  panel_.view().setDisplayFrame("base_link");
+  panel_.view().setFollow(FollowMode::Heading);
+  QTest::keyClick(&panel_.view(), Qt::Key_3);
+  QTest::keyClick(&panel_.view(), Qt::Key_Up, Qt::ControlModifier);
+  panel_.view().saveView("one");
+  panel_.view().setFixedFrame("odom");
+  settle();
+  const ViewState state = panel_.state();
+  ViewPanel other;
+  other.resize(500, 400);
+  other.setDataset(dataset_, *executor_, {});
+  other.view().setTime(TimePoint{5_s});
+  other.setState(state);
+  other.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&other));
+  settle();
+  const ViewState restored = other.state();
+  EXPECT_EQ(restored.viewpoint, state.viewpoint);
+  EXPECT_EQ(restored.saved_views, state.saved_views);
+  EXPECT_EQ(restored.fixed_frame, state.fixed_frame);
+  EXPECT_EQ(restored.is_camera_touched, state.is_camera_touched);
+  EXPECT_FALSE(restored.has_smooth_moves);
+  EXPECT_EQ(other.view().shownView().eye_from_fixed, panel_.view().shownView().eye_from_fixed);
+}
+
+TEST_F(CameraBarTest, AnUntouchedViewIsRestoredUntouched) {
+  panel_.view().setCameraKind(CameraKind::TopDownOrtho);
+  settle();
+  ViewPanel other;
+  other.resize(500, 400);
+  other.setDataset(dataset_, *executor_, {});
+  other.setState(panel_.state());
+  EXPECT_FALSE(other.view().isCameraTouched());
+  EXPECT_EQ(other.view().camera().rig().kind(), CameraKind::TopDownOrtho);
+}
+
+}  // namespace
+}  // namespace stillframe::viewer

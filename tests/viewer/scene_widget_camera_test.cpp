@@ -1,0 +1,275 @@
+// The camera of the widget: models, follow, keys, saved views, smooth moves.
+#include <gtest/gtest.h>
+
+#include <QKeyEvent>
+#include <QLabel>
+#include <QTest>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "scenegraph/camera/picking.h"
+#include "tests/viewer/viewer_support.h"
+#include "viewer/help_overlay.h"
+#include "viewer/scene_widget.h"
+
+namespace stillframe::viewer {
+namespace {
+
+using namespace tf::literals;
+using scenegraph::CameraKind;
+using scenegraph::FollowMode;
+using test::settle;
+using test::waitFor;
+using tf::TimePoint;
+
+constexpr scenegraph::PictureSize kSize{400.0, 300.0};
+
+class WidgetCameraTest : public testing::Test {
+ protected:
+  WidgetCameraTest() {
+    widget_.resize(400, 300);
+    widget_.setSmoothMoves(false);
+    widget_.setDataset(dataset_, *executor_);
+    widget_.scene()->addDefaultLayers();
+    widget_.setTime(TimePoint{2_s});
+    widget_.show();
+    if (!QTest::qWaitForWindowExposed(&widget_)) {
+      ADD_FAILURE() << "no window";
+    }
+    settle();
+  }
+
+  void TearDown() override { EXPECT_EQ(widget_.glMessages(), 0U) << "OpenGL debug output must be silent"; }
+
+  void goTo(std::int64_t time_ns) {
+    widget_.setTime(TimePoint{time_ns});
+    settle();
+  }
+
+  glm::dvec2 pixelOf(const std::string& frame) {
+    const auto pose = widget_.scene()->frames().fixedFromFrame(frame);
+    const auto at = pose ? scenegraph::toScreen(widget_.shownView(), kSize, pose->translation) : std::nullopt;
+    return at ? at->position_px : glm::dvec2(-1e9);
+  }
+
+  void key(int key, Qt::KeyboardModifiers modifiers = {}) {
+    QTest::keyClick(&widget_, static_cast<Qt::Key>(key), modifiers);
+  }
+
+  std::shared_ptr<scenegraph::Dataset> dataset_ = test::makeRobotDataset();
+  std::unique_ptr<scenegraph::Executor> executor_ = scenegraph::makeSynchronousExecutor();
+  SceneWidget widget_;
+};
+
+TEST_F(WidgetCameraTest, DigitsSwitchTheModelAndKeepWhatIsLookedAt) {
+  const glm::dvec3 focal = widget_.camera().sight().focal_point;
+  for (const auto& [digit, kind] : {std::pair{Qt::Key_3, CameraKind::TopDownOrtho},
+                                    std::pair{Qt::Key_4, CameraKind::Fly}, std::pair{Qt::Key_1, CameraKind::Orbit}}) {
+    key(digit);
+    EXPECT_EQ(widget_.camera().rig().kind(), kind);
+    EXPECT_NEAR(glm::length(widget_.camera().sight().focal_point - focal), 0.0, 1e-9);
+    settle();
+    EXPECT_GT(test::drawnPixels(widget_.grabFramebuffer()), 300);
+  }
+  key(Qt::Key_2);
+  EXPECT_EQ(widget_.camera().rig().kind(), CameraKind::XyOrbit);
+  EXPECT_EQ(widget_.camera().sight().focal_point.z, 0.0);
+}
+
+TEST_F(WidgetCameraTest, PoseKeepsTheFollowedFrameAtItsPixelWhileItMoves) {
+  widget_.setDisplayFrame("base_link");
+  const glm::dvec2 before = pixelOf("base_link");
+  widget_.setFollow(FollowMode::Pose);
+  EXPECT_NEAR(glm::length(pixelOf("base_link") - before), 0.0, 1e-9) << "switching it on moves nothing";
+  const glm::dvec2 map_before = pixelOf("map");
+  for (const std::int64_t second : {3, 7, 9, 4}) {
+    goTo(second * 1_s);
+    EXPECT_NEAR(glm::length(pixelOf("base_link") - before), 0.0, 1e-6);
+    EXPECT_GT(glm::length(pixelOf("map") - map_before), 1.0);
+  }
+}
+
+TEST_F(WidgetCameraTest, CameraAndDataAreOfOneTick) {
+  widget_.setDisplayFrame("base_link");
+  widget_.setFollow(FollowMode::Position);
+  const glm::dmat4 before = widget_.shownView().eye_from_fixed;
+  widget_.setTime(TimePoint{8_s});
+  EXPECT_EQ(widget_.shownView().eye_from_fixed, before) << "a frame drawn now shows the old tick from the old place";
+  widget_.applyTick();
+  EXPECT_NE(widget_.shownView().eye_from_fixed, before);
+  EXPECT_EQ(widget_.scene()->time(), TimePoint{8_s});
+}
+
+TEST_F(WidgetCameraTest, OrbitAndZoomGoOnWhileFollowing) {
+  widget_.setDisplayFrame("base_link");
+  key(Qt::Key_T);
+  EXPECT_EQ(widget_.camera().follow().mode(), FollowMode::Position);
+  key(Qt::Key_Left, Qt::ShiftModifier);
+  key(Qt::Key_PageUp);
+  const auto sight = widget_.camera().sight();
+  goTo(9_s);
+  EXPECT_EQ(widget_.camera().sight(), sight) << "the user's orbit and zoom are kept";
+  key(Qt::Key_R);
+  EXPECT_NEAR(glm::length(pixelOf("base_link") - glm::dvec2(200, 150)), 0.0, 1e-6);
+  EXPECT_DOUBLE_EQ(widget_.camera().sight().radius_m, sight.radius_m);
+}
+
+TEST_F(WidgetCameraTest, AnAbsentFollowTargetStaysInertUntilItAppears) {
+  auto viewpoint = widget_.camera().state();
+  viewpoint.display_frame = "drone";
+  viewpoint.follow.mode = FollowMode::Pose;
+  viewpoint.follow.base_from_camera.translation = {0, 0, 5};
+  widget_.setViewpoint(viewpoint);
+  settle();
+  const glm::dmat4 inert = widget_.shownView().eye_from_fixed;
+  goTo(5_s);
+  EXPECT_EQ(widget_.shownView().eye_from_fixed, inert);
+  EXPECT_EQ(widget_.camera().state(), viewpoint);
+}
+
+TEST_F(WidgetCameraTest, AnotherFixedFrameLeavesTheViewOfTheData) {
+  key(Qt::Key_Left, Qt::ShiftModifier);
+  for (const FollowMode mode : scenegraph::kFollowModes) {
+    widget_.setFixedFrame("map");
+    goTo(5_s);
+    widget_.setDisplayFrame("lidar");
+    widget_.setFollow(mode);
+    const glm::dvec2 lidar = pixelOf("lidar");
+    const glm::dvec2 map = pixelOf("map");
+    widget_.setFixedFrame("base_link");
+    settle();
+    EXPECT_NEAR(glm::length(pixelOf("lidar") - lidar), 0.0, 1e-6) << toString(mode);
+    EXPECT_NEAR(glm::length(pixelOf("map") - map), 0.0, 1e-6) << toString(mode);
+  }
+}
+
+TEST_F(WidgetCameraTest, FFramesTheSelectionAndShiftFEverything) {
+  goTo(9_s);
+  widget_.setSelection(Selection{"lidar", {0, 0, 0}, 0.5});
+  key(Qt::Key_F);
+  EXPECT_NEAR(glm::length(pixelOf("lidar") - glm::dvec2(200, 150)), 0.0, 1e-6);
+  const double near_m = widget_.camera().sight().radius_m;
+  EXPECT_LT(near_m, 3.0);
+  key(Qt::Key_F, Qt::ShiftModifier);
+  EXPECT_GT(widget_.camera().sight().radius_m, 2.0 * near_m);
+}
+
+TEST_F(WidgetCameraTest, AxisKeysLookFromThatSide) {
+  const glm::dvec3 focal = widget_.camera().sight().focal_point;
+  key(Qt::Key_X);
+  EXPECT_NEAR(widget_.camera().sight().pitch_rad, 0.0, 1e-12);
+  EXPECT_NEAR(widget_.camera().sight().yaw_rad, 0.0, 1e-12);
+  key(Qt::Key_Z, Qt::ShiftModifier);
+  EXPECT_NEAR(widget_.camera().sight().pitch_rad, -std::numbers::pi / 2, 1e-12);
+  EXPECT_EQ(widget_.camera().sight().focal_point, focal);
+}
+
+TEST_F(WidgetCameraTest, WalkingKeysCarryTheCameraWhileTheyAreHeldAndThenItRests) {
+  key(Qt::Key_4);
+  const glm::dvec3 eye = widget_.camera().rig().fly().state().eye;
+  QTest::keyPress(&widget_, Qt::Key_W);
+  ASSERT_TRUE(waitFor([&] { return glm::length(widget_.camera().rig().fly().state().eye - eye) > 0.5; }));
+  QTest::keyRelease(&widget_, Qt::Key_W);
+  settle();
+  const glm::dvec3 there = widget_.camera().rig().fly().state().eye;
+  const auto frames = widget_.framesDrawn();
+  settle();
+  EXPECT_EQ(widget_.camera().rig().fly().state().eye, there);
+  EXPECT_EQ(widget_.framesDrawn(), frames) << "standing still costs nothing";
+  EXPECT_TRUE(widget_.isCameraTouched());
+}
+
+TEST_F(WidgetCameraTest, LosingTheFocusEndsAWalk) {
+  QTest::keyPress(&widget_, Qt::Key_D);
+  settle();
+  QFocusEvent gone(QEvent::FocusOut);
+  QCoreApplication::sendEvent(&widget_, &gone);
+  settle();
+  const auto sight = widget_.camera().sight();
+  settle();
+  EXPECT_EQ(widget_.camera().sight(), sight);
+}
+
+TEST_F(WidgetCameraTest, SavedViewsComeBackByNameAndByKey) {
+  key(Qt::Key_B);
+  const auto first = widget_.camera().state();
+  ASSERT_EQ(widget_.savedViews().size(), 1U);
+  EXPECT_EQ(widget_.savedViews()[0].name, "View 1");
+  key(Qt::Key_3);
+  key(Qt::Key_Up, Qt::ControlModifier);
+  widget_.saveView("from above");
+  const auto above = widget_.camera().state();
+  key(Qt::Key_1, Qt::ControlModifier);
+  EXPECT_EQ(widget_.camera().state(), first);
+  EXPECT_TRUE(widget_.showSavedView("from above"));
+  EXPECT_EQ(widget_.camera().state(), above);
+  EXPECT_FALSE(widget_.showSavedView("no such view"));
+  widget_.saveView("from above");
+  EXPECT_EQ(widget_.savedViews().size(), 2U) << "replaced";
+}
+
+TEST_F(WidgetCameraTest, SmoothMovesEndExactlyWhereTheOthersDo) {
+  goTo(9_s);
+  const auto start = widget_.camera().state();
+  widget_.frameOrigin("lidar");
+  const auto at_once = widget_.camera().state();
+  widget_.setViewpoint(start);
+  settle();
+  widget_.setSmoothMoves(true);
+  widget_.frameOrigin("lidar");
+  const glm::dmat4 on_the_way = widget_.shownView().eye_from_fixed;
+  EXPECT_EQ(widget_.camera().state(), at_once) << "what is saved meanwhile is where it goes";
+  ASSERT_TRUE(waitFor([&] {
+    QCoreApplication::processEvents();
+    return glm::length(pixelOf("lidar") - glm::dvec2(200, 150)) < 1e-6;
+  }));
+  EXPECT_NE(widget_.shownView().eye_from_fixed, on_the_way);
+  const auto frames = widget_.framesDrawn();
+  EXPECT_GT(frames, 2U);
+  settle();
+  settle();
+  const auto rested = widget_.framesDrawn();
+  settle();
+  EXPECT_EQ(widget_.framesDrawn(), rested) << "idle again";
+}
+
+TEST_F(WidgetCameraTest, QuestionMarkShowsTheHelpAndEscapeHidesIt) {
+  auto* help = widget_.findChild<HelpOverlay*>();
+  ASSERT_NE(help, nullptr);
+  EXPECT_FALSE(help->isShown());
+  key(Qt::Key_Question, Qt::ShiftModifier);
+  EXPECT_TRUE(help->isShown());
+  EXPECT_TRUE(help->text().contains(QStringLiteral("Home")));
+  key(Qt::Key_Escape);
+  EXPECT_FALSE(help->isShown());
+}
+
+TEST_F(WidgetCameraTest, HoverNamesAllFramesAtOnePlace) {
+  goTo(1_s);
+  const glm::dvec2 at = pixelOf("map");  // odom is there too
+  QMouseEvent event(QEvent::MouseMove, QPointF(at.x, at.y), widget_.mapToGlobal(QPointF(at.x, at.y)), Qt::NoButton,
+                    Qt::NoButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&widget_, &event);
+  const auto labels = widget_.findChildren<QLabel*>();
+  const bool is_named = std::ranges::any_of(
+      labels, [](const QLabel* label) { return label->isVisible() && label->text() == QStringLiteral("map\nodom"); });
+  EXPECT_TRUE(is_named);
+}
+
+TEST_F(WidgetCameraTest, OrthographicHoverAndFramingWork) {
+  key(Qt::Key_3);
+  key(Qt::Key_Home);
+  settle();
+  const glm::dvec2 at = pixelOf("lidar");
+  EXPECT_GE(at.x, 0.0);
+  EXPECT_LE(at.x, kSize.width_px);
+  QString hovered;
+  QObject::connect(&widget_, &SceneWidget::frameHovered, &widget_, [&](const QString& frame) { hovered = frame; });
+  QMouseEvent event(QEvent::MouseMove, QPointF(at.x, at.y), widget_.mapToGlobal(QPointF(at.x, at.y)), Qt::NoButton,
+                    Qt::NoButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&widget_, &event);
+  EXPECT_EQ(hovered, QStringLiteral("lidar"));
+}
+
+}  // namespace
+}  // namespace stillframe::viewer

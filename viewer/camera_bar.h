@@ -1,0 +1,42 @@
+#pragma once
+
+#include <QToolBar>
+
+class QAction;
+class QComboBox;
+class QMenu;
+
+namespace stillframe::viewer {
+
+class FramePicker;
+class SceneWidget;
+
+/// Camera model, display frame, follow mode, recenter and saved views of one view; what does not fit goes into the
+/// tool bar's extension. Every control has a key in the view, too. GUI thread.
+class CameraBar : public QToolBar {
+  Q_OBJECT
+
+ public:
+  explicit CameraBar(SceneWidget& view, QWidget* parent = nullptr);
+
+  /// The frames of the recording may be more; cheap when nothing is new.
+  void refresh();
+  [[nodiscard]] QComboBox& kinds() noexcept { return *kinds_; }
+  [[nodiscard]] QComboBox& follows() noexcept { return *follows_; }
+  [[nodiscard]] FramePicker& displayFrame() noexcept { return *display_frame_; }
+  [[nodiscard]] QMenu& views() noexcept { return *views_; }
+
+ private:
+  void showCamera();
+  void fillViews();
+  void askForName();
+
+  SceneWidget& view_;
+  QComboBox* kinds_ = nullptr;
+  QComboBox* follows_ = nullptr;
+  FramePicker* display_frame_ = nullptr;
+  QAction* recenter_ = nullptr;
+  QMenu* views_ = nullptr;
+};
+
+}  // namespace stillframe::viewer

@@ -1,5 +1,7 @@
 #include "scenegraph/pipeline/point_stage.h"
 
+#include <algorithm>
+#include <chrono>
 #include <glm/gtc/type_ptr.hpp>
 #include <optional>
 #include <osg/NodeVisitor>
@@ -13,6 +15,9 @@ namespace stillframe::scenegraph {
 namespace {
 
 namespace glsl = shaders::stillframe_render;
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::duration duration) { return std::chrono::duration<double, std::milli>(duration).count(); }
 
 /// The uniforms of one cloud's state, by name.
 class Uniforms {
@@ -106,11 +111,13 @@ class PointCollector : public osg::NodeVisitor {
     }
     batch.is_round = uniforms.get("u_round_points", false);
     batches.push_back(batch);
+    arrays.emplace_back(vertices);
     colors.push_back(colorsOf(geometry, uniforms));
     count += vertices->size();
   }
 
   std::vector<PointBatch> batches;
+  std::vector<osg::ref_ptr<const osg::Array>> arrays;
   std::vector<PointColors> colors;
   std::size_t count = 0;
 
@@ -130,6 +137,8 @@ class PointCollector : public osg::NodeVisitor {
   int height_px_;
 };
 
+constexpr double kFirstGuess = 2e4;  // points a millisecond, of one slow core
+
 osg::ref_ptr<osg::Texture2D> makeTexture(const osg::ref_ptr<osg::Image>& image, GLint internal_format) {
   osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D{image};
   texture->setInternalFormat(internal_format);
@@ -143,7 +152,11 @@ osg::ref_ptr<osg::Texture2D> makeTexture(const osg::ref_ptr<osg::Image>& image, 
 }  // namespace
 
 PointStage::PointStage(unsigned threads)
-    : raster_(threads), triangle_(makeGeometry()), color_(new osg::Image), depth_(new osg::Image) {
+    : raster_(threads),
+      points_per_ms_(kFirstGuess),
+      triangle_(makeGeometry()),
+      color_(new osg::Image),
+      depth_(new osg::Image) {
   osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
   vertices->push_back({-1.0F, -1.0F, 0.0F});
   vertices->push_back({3.0F, -1.0F, 0.0F});
@@ -169,24 +182,57 @@ void PointStage::resize(int width_px, int height_px) {
   }
 }
 
-std::size_t PointStage::draw(osg::Group& root, const osg::Matrixd& eye_from_fixed, const osg::Matrixd& clip_from_eye,
-                             int width_px, int height_px, const PassRange& passes) {
+void PointStage::startAnew(const std::vector<PointBatch>& batches, std::vector<osg::ref_ptr<const osg::Array>> arrays,
+                           int width_px, int height_px) {
+  raster_.begin(width_px, height_px);
+  batches_ = batches;
+  arrays_ = std::move(arrays);
+  passes_ = 0;
+}
+
+std::uint32_t PointStage::affordablePasses(std::size_t points, double budget_ms) const {
+  const double per_pass = static_cast<double>(points) / kPassesOfSample;
+  const double passes = budget_ms * points_per_ms_ / per_pass;
+  const std::uint32_t left = kPassesOfSample - passes_;
+  return passes < left ? std::max(static_cast<std::uint32_t>(std::max(passes, 0.0)), 1U) : left;
+}
+
+PointProgress PointStage::draw(osg::Group& root, const osg::Matrixd& eye_from_fixed, const osg::Matrixd& clip_from_eye,
+                               int width_px, int height_px, double budget_ms) {
   PointCollector collector(eye_from_fixed, clip_from_eye, height_px);
   root.accept(collector);
   triangle_->setNodeMask(collector.count > 0 ? ~0U : 0U);
   if (collector.count == 0) {
-    return 0;
+    batches_.clear();
+    arrays_.clear();
+    return {};
   }
-  raster_.begin(width_px, height_px);
-  raster_.draw(collector.batches, passes);
+  const auto start = Clock::now();
+  if (collector.batches != batches_ || raster_.widthPx() != width_px || raster_.heightPx() != height_px) {
+    startAnew(collector.batches, std::move(collector.arrays), width_px, height_px);
+  }
+  PointProgress progress{.points = collector.count};
+  if (passes_ < kPassesOfSample) {
+    const std::uint32_t more = affordablePasses(collector.count, budget_ms);
+    const auto before = Clock::now();
+    raster_.draw(batches_, {passes_, passes_ + more});
+    passes_ += more;
+    progress.raster_ms = milliseconds(Clock::now() - start);
+    const double drawn = static_cast<double>(collector.count) * more / kPassesOfSample;
+    constexpr double kNewest = 0.5;  // of the mean: soon right after a change, no slave of one slow frame
+    points_per_ms_ += kNewest * (drawn / std::max(milliseconds(Clock::now() - before), 1e-3) - points_per_ms_);
+  }
+  progress.share = static_cast<double>(passes_) / kPassesOfSample;
+  const auto drawn = Clock::now();
   resize(width_px, height_px);
   const std::size_t pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-  raster_.resolve(PointShading(collector.batches, collector.colors),
+  raster_.resolve(PointShading(batches_, collector.colors),
                   {reinterpret_cast<std::uint16_t*>(color_->data()), 4 * pixels},
                   {reinterpret_cast<float*>(depth_->data()), pixels});
   color_->dirty();
   depth_->dirty();
-  return collector.count;
+  progress.resolve_ms = milliseconds(Clock::now() - drawn);
+  return progress;
 }
 
 }  // namespace stillframe::scenegraph

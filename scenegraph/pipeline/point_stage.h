@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <osg/Array>
 #include <osg/Geometry>
 #include <osg/Group>
 #include <osg/Image>
@@ -17,6 +20,14 @@ namespace stillframe::scenegraph {
 /// Vertex attribute that holds their values.
 inline constexpr unsigned kPointValueAttribute = 6;
 
+/// How far the picture of a PointStage has come.
+struct PointProgress {
+  std::size_t points = 0;  ///< of the scene, seen or not
+  double share = 1.0;      ///< of them that have been drawn; below 1 the picture is a fair sample
+  double raster_ms = 0.0;  ///< that this call took to draw points; 0 where none had to be
+  double resolve_ms = 0.0;
+};
+
 /// The points of a scene graph, drawn on the CPU and put into the picture as a colour and a depth for each pixel.
 ///
 /// It reads stock nodes: what the graph says is what is drawn, whichever layer put it there. Thread of the context
@@ -27,14 +38,21 @@ class PointStage {
 
   /// What the camera of the scene draws in place of the points: one full-screen step, the first of all.
   [[nodiscard]] osg::Node& picture() noexcept { return *triangle_; }
-  /// Draws the points beneath `root` that are not masked off. Returns how many there are.
-  std::size_t draw(osg::Group& root, const osg::Matrixd& eye_from_fixed, const osg::Matrixd& clip_from_eye,
-                   int width_px, int height_px, const PassRange& passes = {});
+  /// Draws the points beneath `root` that are not masked off, as many as the time for it allows, and a few always.
+  PointProgress draw(osg::Group& root, const osg::Matrixd& eye_from_fixed, const osg::Matrixd& clip_from_eye,
+                     int width_px, int height_px, double budget_ms = std::numeric_limits<double>::infinity());
 
  private:
   void resize(int width_px, int height_px);
+  void startAnew(const std::vector<PointBatch>& batches, std::vector<osg::ref_ptr<const osg::Array>> arrays,
+                 int width_px, int height_px);
+  [[nodiscard]] std::uint32_t affordablePasses(std::size_t points, double budget_ms) const;
 
   PointRaster raster_;
+  std::vector<PointBatch> batches_;                     // in the raster
+  std::vector<osg::ref_ptr<const osg::Array>> arrays_;  // theirs: an address alone may have been given anew
+  std::uint32_t passes_ = 0;                            // drawn of them
+  double points_per_ms_;                                // measured
   osg::ref_ptr<osg::Geometry> triangle_;
   osg::ref_ptr<osg::Image> color_;
   osg::ref_ptr<osg::Image> depth_;

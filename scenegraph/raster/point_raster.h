@@ -23,6 +23,12 @@ struct PointBatch {
   bool is_round = false;  ///< a disc instead of the square
 
   [[nodiscard]] std::size_t count() const noexcept { return positions.size() / 3; }
+  /// The same numbers at the same place in memory.
+  friend bool operator==(const PointBatch& a, const PointBatch& b) noexcept {
+    return a.positions.data() == b.positions.data() && a.positions.size() == b.positions.size() &&
+           a.clip_from_points == b.clip_from_points && a.size == b.size && a.is_size_in_metres == b.is_size_in_metres &&
+           a.is_round == b.is_round;
+  }
 };
 
 /// What is seen at a pixel, as PointRaster::keys() holds it: 0 is nothing.

@@ -88,6 +88,11 @@ struct RasteriserCase {
 };
 
 class PointRasterisers : public ScenePictureTest, public testing::WithParamInterface<RasteriserCase> {
+ public:
+  static scenegraph::CameraView alongX(const glm::dvec3& eye) {
+    return {.eye_from_fixed = scenegraph::lookAt(eye, eye + glm::dvec3(1, 0, 0), {0, 0, 1})};
+  }
+
  protected:
   scenegraph::Picture picture(osg::Group& root, const scenegraph::CameraView& view) {
     auto drawn = renderer_->render(root, view, {.width = kWidthPx, .height = kHeightPx, .background = {0, 0, 0, 1}});
@@ -110,8 +115,10 @@ class PointRasterisers : public ScenePictureTest, public testing::WithParamInter
     scenegraph::PointStage stage(2);
     const double aspect = static_cast<double>(kWidthPx) / kHeightPx;
     const glm::dmat4 clip_from_eye = scenegraph::projection(view, aspect);
-    EXPECT_EQ(stage.draw(scene_->root(), osg::Matrixd(&view.eye_from_fixed[0][0]), osg::Matrixd(&clip_from_eye[0][0]),
-                         kWidthPx, kHeightPx),
+    EXPECT_EQ(stage
+                  .draw(scene_->root(), osg::Matrixd(&view.eye_from_fixed[0][0]), osg::Matrixd(&clip_from_eye[0][0]),
+                        kWidthPx, kHeightPx)
+                  .points,
               40'000U);
     osg::ref_ptr<osg::Group> both = new osg::Group;
     both->addChild(&scene_->root());
@@ -125,10 +132,6 @@ class PointRasterisers : public ScenePictureTest, public testing::WithParamInter
     std::cout << GetParam().name << ": " << difference.pixels << " of " << difference.drawn << " pixels apart\n";
     EXPECT_GT(difference.drawn, 4000U);
     EXPECT_LE(difference.pixels, tolerance);
-  }
-
-  static scenegraph::CameraView alongX(const glm::dvec3& eye) {
-    return {.eye_from_fixed = scenegraph::lookAt(eye, eye + glm::dvec3(1, 0, 0), {0, 0, 1})};
   }
 };
 
@@ -156,6 +159,79 @@ INSTANTIATE_TEST_SUITE_P(
                     RasteriserCase{"metres", {{"color_field", "x"}, {"point_size", "0.2"}, {"size_unit", "m"}}},
                     RasteriserCase{"fractional", {{"color_field", "intensity"}, {"point_size", "2.7"}}}),
     [](const auto& tested) { return tested.param.name; });
+
+class PointStageSteps : public ScenePictureTest {
+ protected:
+  void SetUp() override {
+    ScenePictureTest::SetUp();
+    open(DatasetBuilder()
+             .topic("/tf", ObjectType::FrameTransforms)
+             .transform(0, "map", "lidar", {})
+             .topic("/points", ObjectType::PointCloud)
+             .at(1_s, nearToHorizon(40'000))
+             .at(2_s, nearToHorizon(30'000))
+             .build(),
+         "map");
+    layer_ = &add("/points", {{"color_field", "intensity"}});
+    scene_->update(tf::TimePoint{1_s});
+  }
+  scenegraph::PointProgress step(scenegraph::PointStage& stage, double budget_ms, double eye_x = 0.0) {
+    const auto view = PointRasterisers::alongX({eye_x, 0, 0});
+    const glm::dmat4 clip_from_eye = scenegraph::projection(view, 1.0);
+    return stage.draw(scene_->root(), osg::Matrixd(&view.eye_from_fixed[0][0]), osg::Matrixd(&clip_from_eye[0][0]), 64,
+                      64, budget_ms);
+  }
+  static std::vector<unsigned char> colors(scenegraph::PointStage& stage) {
+    const auto* const texture = dynamic_cast<osg::Texture*>(
+        stage.picture().getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+    const osg::Image* const image = texture->getImage(0);
+    return {image->data(), image->data() + image->getTotalSizeInBytes()};
+  }
+  scenegraph::Layer* layer_ = nullptr;
+};
+
+TEST_F(PointStageSteps, GoOnWhereTimeRanOutUntilThePictureIsWhole) {
+  scenegraph::PointStage whole(2);
+  EXPECT_EQ(step(whole, std::numeric_limits<double>::infinity()).share, 1.0);
+  scenegraph::PointStage stepwise(2);
+  double share = 0.0;
+  int steps = 0;
+  while (share < 1.0) {
+    const auto progress = step(stepwise, 0.05);
+    EXPECT_EQ(progress.points, 40'000U);
+    ASSERT_GT(progress.share, share) << "each step draws something";
+    share = progress.share;
+    ++steps;
+  }
+  EXPECT_GT(steps, 3);
+  EXPECT_EQ(colors(stepwise), colors(whole));
+}
+
+TEST_F(PointStageSteps, DrawNoPointAgainForAnotherColour) {
+  scenegraph::PointStage stage(2);
+  EXPECT_GT(step(stage, 1e9).raster_ms, 0.0);
+  const auto before = colors(stage);
+  EXPECT_EQ(step(stage, 1e9).raster_ms, 0.0);
+  EXPECT_EQ(colors(stage), before);
+  ASSERT_TRUE(layer_->applySettings({{"colormap", "viridis"}}));
+  scene_->update(tf::TimePoint{1_s});
+  EXPECT_EQ(step(stage, 1e9).raster_ms, 0.0);
+  EXPECT_NE(colors(stage), before);
+}
+
+TEST_F(PointStageSteps, StartAnewWhenTheCameraMovesOrTheCloudIsAnother) {
+  scenegraph::PointStage stage(2);
+  step(stage, 1e9);
+  EXPECT_GT(step(stage, 1e9, 0.5).raster_ms, 0.0);
+  scene_->update(tf::TimePoint{2_s});
+  const auto progress = step(stage, 1e9, 0.5);
+  EXPECT_GT(progress.raster_ms, 0.0);
+  EXPECT_EQ(progress.points, 30'000U);
+  layer_->setVisible(false);
+  scene_->update(tf::TimePoint{2_s});
+  EXPECT_EQ(step(stage, 1e9).points, 0U);
+  EXPECT_EQ(stage.picture().getNodeMask(), 0U) << "nothing to draw, no step";
+}
 
 }  // namespace
 }  // namespace stillframe::test

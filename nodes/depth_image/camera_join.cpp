@@ -86,7 +86,12 @@ Result raysOf(const Join& join, const Candidate& candidate) {
   return rays;
 }
 
+bool takesOwn(const CameraJoin::Wanted& wanted) { return wanted.own != nullptr && wanted.info_topic == "auto"; }
+
 Result runJoin(const Join& join) {
+  if (takesOwn(join.wanted)) {
+    return raysOf(join, {join.image_topic, join.wanted.own});
+  }
   std::vector<Candidate> candidates;
   std::vector<std::string> other_frames;
   for (const TopicInForce& topic : join.infos) {
@@ -121,6 +126,11 @@ CameraJoin::CameraJoin(const scenegraph::LayerContext& context, std::string imag
       job_(context) {}
 
 std::optional<Result> CameraJoin::get(const Wanted& wanted, tf::TimePoint time) {
+  if (takesOwn(wanted)) {
+    const scenegraph::CacheKey key{.product = contentOf(*wanted.own, wanted, PixelGrid::Raw) +
+                                              (wanted.rectify ? " own camera" : " own camera undone")};
+    return job_.get(key, [join = Join{dataset_, image_topic_, wanted, {}, {}}] { return runJoin(join); });
+  }
   Join join{dataset_, image_topic_, wanted, topics_.at(dataset_->store(), time), {}};
   const bool is_auto = wanted.info_topic == "auto";
   if (!is_auto) {

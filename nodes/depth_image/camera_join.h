@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -22,8 +23,9 @@ class CameraJoin {
     std::string frame_id;  ///< without leading slashes
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::string info_topic;  ///< "auto": by frame
-    bool rectify = true;     ///< take the distortion into account
+    std::string info_topic;                             ///< "auto": by frame
+    std::shared_ptr<const scenegraph::CameraInfo> own;  ///< that came with the image; then "auto" is this one
+    bool rectify = true;                                ///< take the distortion into account
   };
 
   CameraJoin(const scenegraph::LayerContext& context, std::string image_topic);

@@ -67,7 +67,9 @@ std::optional<TopicLayer::Anchor> DepthImageLayer::load(const scenegraph::Tick& 
   return anchorOf(*shown_.depth);
 }
 
-TopicLayer::Anchor DepthImageLayer::anchorOf(const DepthFrame& frame) const { return {frame.source->frame_id, {}}; }
+TopicLayer::Anchor DepthImageLayer::anchorOf(const DepthFrame& frame) const {
+  return {chosen().frame == "auto" ? frame.source->frame_id : chosen().frame, {}};
+}
 
 osg::BoundingBoxd DepthImageLayer::box() const {
   return extent_.points > 0 ? osg::BoundingBoxd(extent_.box) : osg::BoundingBoxd();
@@ -97,7 +99,8 @@ std::optional<DepthImageLayer::Joined> DepthImageLayer::join(tf::TimePoint time)
   }
   const DepthFrame& depth = *joined.depth;
   const std::string frame(tf::stripLeadingSlashes(depth.source->frame_id));
-  const auto rays = camera_->get({frame, depth.width, depth.height, chosen().info_topic, chosen().rectify}, time);
+  const auto rays = camera_->get(
+      {frame, depth.width, depth.height, chosen().info_topic, depth.source->camera, chosen().rectify}, time);
   if (!rays) {
     return std::nullopt;
   }
@@ -222,7 +225,7 @@ std::vector<scenegraph::SettingSpec> DepthImageLayer::settingSpecs() const {
   auto specs = SampleLayer::settingSpecs();
   if (camera_) {
     for (std::string& name : camera_->topicNames()) {
-      specs.back().choices.push_back(std::move(name));
+      std::ranges::find(specs, "info_topic", &scenegraph::SettingSpec::key)->choices.push_back(std::move(name));
     }
   }
   return specs;

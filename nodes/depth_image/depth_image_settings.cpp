@@ -42,7 +42,13 @@ const scenegraph::SettingsTable<DepthImageSettings>& depthImageSettingsTable() {
                 .help = "Topic of the intrinsics; auto takes the one in the image's frame.",
                 .kind = SettingKind::Text,
                 .choices = {"auto"}},
-               &S::info_topic}});
+               &S::info_topic},
+              {{.key = "frame",
+                .label = "Frame",
+                .help = "Frame that the camera looks from; auto takes the image's, which a DepthImage of a host lacks.",
+                .kind = SettingKind::Text,
+                .choices = {"auto"}},
+               &S::frame}});
   return kTable;
 }
 

@@ -17,6 +17,7 @@ struct DepthImageSettings : ValueColoring {
   double max_depth_m = 0.0;
   bool rectify = true;
   std::string info_topic = "auto";
+  std::string frame = "auto";
 
   friend bool operator==(const DepthImageSettings&, const DepthImageSettings&) = default;
 };

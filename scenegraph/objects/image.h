@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "tf/time.h"
 
 namespace stillframe::scenegraph {
+
+struct CameraInfo;
 
 /// A colour or depth image: sensor_msgs/Image, sensor_msgs/CompressedImage, foxglove.RawImage,
 /// foxglove.CompressedImage.
@@ -28,6 +31,7 @@ struct Image {
   std::uint32_t row_step = 0;       ///< bytes, padding included
   bool is_bigendian = false;
   Payload data;
+  std::shared_ptr<const CameraInfo> camera;  ///< that came with it (the host's DepthImage), or nullptr
   [[nodiscard]] std::size_t byteSize() const { return sizeof(*this) + data.bytes.size(); }
 };
 

@@ -55,6 +55,25 @@ scenegraph::SettingTexts with(scenegraph::SettingTexts settings, const scenegrap
 
 using DepthPicture = ScenePictureTest;
 
+TEST_F(DepthPicture, TakesTheCameraThatCameWithTheImageAndTheFrameThatIsChosen) {
+  Image image = depthImage16("", 3, {2000, 4000, 6000});  // a DepthImage of a host: no frame, its own intrinsics
+  image.camera = std::make_shared<const CameraInfo>(cameraInfo("", 3, 1, kFocal));
+  open(camera(cameraInfo("optical", 3, 1, 77.0)).topic("/depth/image_raw", ObjectType::Image).at(1_s, image).build(),
+       "map");
+  auto& layer = add("/depth/image_raw", kBig);
+  EXPECT_EQ(drawnPixels(draw(1_s, fromOptical())), 0);
+  EXPECT_EQ(layer.status().code, "UnknownSource");
+  EXPECT_THAT(layer.status().message, HasSubstr("names no frame"));
+  ASSERT_TRUE(layer.applySettings({{"frame", "/optical"}}));
+  const auto picture = draw(1_s, fromOptical());
+  EXPECT_EQ(layer.status().code, "Ok") << layer.status().message;
+  EXPECT_EQ(drawnPixels(picture), 3 * 81);
+  expectNear(pixel(picture, 160, 100), colorAt("turbo", 1.0));
+  // A topic that is named goes before the camera of the image: its narrow lens puts all points in the middle.
+  ASSERT_TRUE(layer.applySettings({{"info_topic", "/depth/camera_info"}}));
+  EXPECT_LT(drawnPixels(draw(1_s, fromOptical())), 2 * 81);
+}
+
 TEST_F(DepthPicture, PutsEachPixelOnItsRayAndColoursItByDepth) {
   open(camera(cameraInfo("optical", 3, 1, kFocal))
            .topic("/depth/image_raw", ObjectType::Image)

@@ -1,4 +1,4 @@
-// Foxglove's schemas in protobuf and JSON, and the host's own in protobuf.
+// Foxglove's schemas in protobuf and JSON.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -6,10 +6,10 @@
 #include "scenegraph/objects/grid_map.h"
 #include "scenegraph/objects/image.h"
 #include "scenegraph/objects/laser_scan.h"
-#include "scenegraph/objects/occupancy_grid.h"
 #include "scenegraph/objects/point_cloud.h"
 #include "scenegraph/objects/poses.h"
 #include "scenegraph/objects/scene_entities.h"
+#include "tests/tools/ingest/decoded.h"
 #include "tests/tools/ingest/proto_writer.h"
 #include "tools/ingest/message_decoder.h"
 
@@ -17,6 +17,7 @@ namespace stillframe::ingest {
 namespace {
 
 using scenegraph::AnyObject;
+using test::decoded;
 using testing::HasSubstr;
 
 // Numbers are shuffled against Foxglove's on purpose: fields go by name.
@@ -38,17 +39,6 @@ message LinePrimitive { enum Type { STRIP = 0; LOOP = 1; LIST = 2; } Type type =
   repeated Color colors = 7; repeated fixed32 indices = 8; }
 message Deletion { google.protobuf.Timestamp timestamp = 1; int32 type = 2; string id = 3; }
 )";
-
-AnyObject decoded(const SchemaRecord& schema, std::string_view encoding, std::span<const std::byte> bytes) {
-  const auto decoder = makeDecoder(&schema, encoding, "/topic");
-  EXPECT_EQ(decoder.unsupported_reason, "");
-  if (decoder.decoder == nullptr) {
-    return {};
-  }
-  auto object = decoder.decoder->decode({bytes, nullptr, 1, {0}});  // a block of one byte: views always
-  EXPECT_TRUE(object) << object.error().message;
-  return object ? *object : AnyObject{};
-}
 
 const std::string kCloudText = R"(timestamp { seconds: -2 nanos: 5 } frame_id: "/lidar"
   pose { position { x: 1 y: 2 z: 3 } orientation { z: 1 } } point_stride: 3
@@ -215,23 +205,6 @@ TEST(FoxgloveJson, DamageIsTyped) {
     EXPECT_EQ(object.error().code, "BadJson") << text;
     EXPECT_THAT(object.error().message, HasSubstr(std::to_string(text.size()) + " bytes"));
   }
-}
-
-TEST(HostProtobuf, GoesByNumber) {
-  test::ProtoWriter writer(R"(syntax = "proto3"; package PJ; import "google/protobuf/timestamp.proto";
-    message V { double x = 1; double y = 2; double z = 3; } message Q { double x = 1; double y = 2; double z = 3; double w = 4; }
-    message P { V p = 1; Q q = 2; }
-    message OccupancyGrid { google.protobuf.Timestamp t = 1; string f = 2; P o = 3; double r = 4; uint32 w = 5;
-      uint32 h = 6; bytes d = 7; })");
-  const auto bytes =
-      writer.message("PJ.OccupancyGrid", "f: '/map' o { p { y: 2 } q { w: 1 } } r: 0.5 w: 2 h: 1 d: 'ab'");
-  const auto grid = decoded(writer.schema("PJ.OccupancyGrid"), "protobuf", bytes).get<scenegraph::OccupancyGrid>();
-  ASSERT_NE(grid, nullptr);
-  EXPECT_EQ(grid->frame_id, "map");
-  EXPECT_EQ(grid->origin.translation.y, 2.0);
-  EXPECT_EQ(grid->resolution_m, 0.5);
-  EXPECT_EQ(grid->width, 2u);
-  EXPECT_EQ(grid->data.bytes.size(), 2u);
 }
 
 }  // namespace

@@ -55,6 +55,8 @@ Created hostOccupancyGridUpdate(const SchemaRecord& schema, std::string_view mes
 Created hostVoxelGrid(const SchemaRecord& schema, std::string_view message_encoding);
 Created hostGridMap(const SchemaRecord& schema, std::string_view message_encoding);
 Created hostImage(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostDepthImage(const SchemaRecord& schema, std::string_view message_encoding);
+Created hostMesh(const SchemaRecord& schema, std::string_view message_encoding);
 Created hostCameraInfo(const SchemaRecord& schema, std::string_view message_encoding);
 Created hostPoses(const SchemaRecord& schema, std::string_view message_encoding);
 Created hostRobotDescription(const SchemaRecord& schema, std::string_view message_encoding);

@@ -7,7 +7,7 @@
 #include "scenegraph/objects/voxel_grid.h"
 #include "tools/ingest/converters/compressed_clouds.h"
 #include "tools/ingest/converters/converters.h"
-#include "tools/ingest/converters/images.h"
+#include "tools/ingest/converters/host_shapes.h"
 #include "tools/ingest/converters/robot_text.h"
 #include "tools/ingest/converters/scene_rows.h"
 
@@ -17,27 +17,6 @@ namespace {
 
 using namespace scenegraph;  // NOLINT(google-build-using-namespace): every object by its name
 using tf::RigidTransform;
-
-Shape hostVector() {
-  Shape shape;
-  shape.field<&glm::dvec3::x>("1").field<&glm::dvec3::y>("2").field<&glm::dvec3::z>("3");
-  return shape;
-}
-Shape hostPlanarVector() {
-  Shape shape;
-  shape.field<&glm::dvec2::x>("1").field<&glm::dvec2::y>("2");
-  return shape;
-}
-Shape hostQuaternion() {
-  Shape shape;
-  shape.field<&glm::dquat::x>("1").field<&glm::dquat::y>("2").field<&glm::dquat::z>("3").field<&glm::dquat::w>("4");
-  return shape;
-}
-Shape hostPose() {
-  Shape shape;
-  shape.row<&RigidTransform::translation>("1", hostVector()).row<&RigidTransform::rotation>("2", hostQuaternion());
-  return shape;
-}
 
 struct HostFieldRow {
   PackedField field;
@@ -177,33 +156,6 @@ Created hostGridMap(const SchemaRecord& schema, std::string_view message_encodin
       .rows<&Row::fields>("9", hostField())
       .field<&Row::data>("10");
   return RowDecoder<Row>::create(schema, message_encoding, shape, convert<GridMap>);
-}
-
-Created hostImage(const SchemaRecord& schema, std::string_view message_encoding) {
-  Shape shape;
-  shape.field<&ImageRow::image, &Image::stamp>("1")
-      .field<&ImageRow::image, &Image::width>("2")
-      .field<&ImageRow::image, &Image::height>("3")
-      .field<&ImageRow::image, &Image::encoding>("4")
-      .field<&ImageRow::image, &Image::row_step>("5")
-      .field<&ImageRow::image, &Image::is_bigendian>("6")
-      .field<&ImageRow::data>("7")
-      .field<&ImageRow::image, &Image::frame_id>("10");
-  return RowDecoder<ImageRow>::create(schema, message_encoding, shape, rawImage);
-}
-
-Created hostCameraInfo(const SchemaRecord& schema, std::string_view message_encoding) {
-  Shape shape;
-  shape.field<&CameraRow::info, &CameraInfo::stamp>("1")
-      .field<&CameraRow::info, &CameraInfo::frame_id>("2")
-      .field<&CameraRow::info, &CameraInfo::width>("3")
-      .field<&CameraRow::info, &CameraInfo::height>("4")
-      .field<&CameraRow::info, &CameraInfo::distortion_model>("5")
-      .field<&CameraRow::info, &CameraInfo::distortion>("6")
-      .field<&CameraRow::k>("7")
-      .field<&CameraRow::r>("8")
-      .field<&CameraRow::p>("9");
-  return RowDecoder<CameraRow>::create(schema, message_encoding, shape, cameraInfo);
 }
 
 Created hostPoses(const SchemaRecord& schema, std::string_view message_encoding) {

@@ -67,6 +67,8 @@ std::span<const ConverterType> converterTypes() {
       {"PJ.VoxelGrid", ObjectType::VoxelGrid, converters::hostVoxelGrid},
       {"PJ.GridMap", ObjectType::GridMap, converters::hostGridMap},
       {"PJ.Image", ObjectType::Image, converters::hostImage},
+      {"PJ.DepthImage", ObjectType::Image, converters::hostDepthImage},
+      {"PJ.Mesh3D", ObjectType::SceneEntities, converters::hostMesh},
       {"PJ.CameraInfo", ObjectType::CameraInfo, converters::hostCameraInfo},
       {"PJ.PosesInFrame", ObjectType::PosesInFrame, converters::hostPoses},
       {"PJ.RobotDescription", ObjectType::RobotDescription, converters::hostRobotDescription},

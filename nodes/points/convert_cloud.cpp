@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "nodes/points/copy_points.h"
 #include "nodes/points/read_value.h"
 
 namespace stillframe::nodes {
@@ -84,69 +85,16 @@ void convertRow(const std::byte* row, std::size_t count, std::size_t step, const
   }
 }
 
-// Four lanes: x, y, z and whatever follows; the fourth is never looked at. GCC and Clang on any CPU.
-using Float4 = float __attribute__((vector_size(16)));
-using Int4 = std::int32_t __attribute__((vector_size(16)));
-
-Float4 load4(const std::byte* at) noexcept {
-  Float4 v;
-  std::memcpy(&v, at, sizeof(v));
-  return v;
-}
-
-Float4 least(Float4 a, Float4 b) noexcept { return a < b ? a : b; }
-Float4 greatest(Float4 a, Float4 b) noexcept { return a > b ? a : b; }
-
-constexpr std::size_t kBlock = 4;
-
-/// Box of the points of whole blocks, one lane an axis.
-struct LaneBox {
-  Float4 low;
-  Float4 high;
-};
-
-/// Copies blocks of kBlock points until one holds a coordinate out of reach; how many it was. Reads 16 bytes a point
-/// and writes one float past the last. Everything lives in registers: this loop decides the speed.
-std::size_t copyBlocks(const std::byte* at, std::size_t step, std::size_t blocks, float* out, LaneBox& box) {
-  const Int4 sign_off = {0x7fffffff, 0x7fffffff, 0x7fffffff, 0};  // the fourth lane becomes 0: always within reach
-  const float reach = ConvertedCloud::kReach;
-  const Float4 reach4 = {reach, reach, reach, reach};
-  const auto within = [&](Float4 p) { return std::bit_cast<Float4>(std::bit_cast<Int4>(p) & sign_off) <= reach4; };
-  Float4 low = box.low;
-  Float4 high = box.high;
-  std::size_t done = 0;
-  for (; done < blocks; ++done, at += kBlock * step, out += 3 * kBlock) {
-    const Float4 p0 = load4(at);
-    const Float4 p1 = load4(at + step);
-    const Float4 p2 = load4(at + 2 * step);
-    const Float4 p3 = load4(at + 3 * step);
-    const Int4 all_within = (within(p0) & within(p1)) & (within(p2) & within(p3));
-    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(all_within);
-    if ((halves[0] & halves[1]) != ~std::uint64_t{0}) {
-      break;
-    }
-    // In pairs: one after the other, each would wait for the one before.
-    low = least(low, least(least(p0, p1), least(p2, p3)));
-    high = greatest(high, greatest(greatest(p0, p1), greatest(p2, p3)));
-    // Each store's fourth lane is overwritten by the next one.
-    std::memcpy(out, &p0, sizeof(p0));
-    std::memcpy(out + 3, &p1, sizeof(p1));
-    std::memcpy(out + 6, &p2, sizeof(p2));
-    std::memcpy(out + 9, &p3, sizeof(p3));
-  }
-  box = {low, high};
-  return done;
-}
-
 /// Blocks that can be copied from `at` without reading past the data or writing past the room.
 std::size_t copyableBlocks(const std::byte* at, std::size_t points, std::size_t step, const Progress& progress) {
+  constexpr std::size_t kRead = 4 * sizeof(float);  // a point
   const auto readable = static_cast<std::size_t>(progress.data_end - at);
   const auto writable = static_cast<std::size_t>(progress.out_end - progress.out);
-  if (readable < sizeof(Float4) || writable == 0) {
+  if (readable < kRead || writable == 0) {
     return 0;
   }
-  const std::size_t readable_points = (readable - sizeof(Float4)) / step + 1;
-  return std::min({points / kBlock, readable_points / kBlock, (writable - 1) / (3 * kBlock)});
+  const std::size_t readable_points = (readable - kRead) / step + 1;
+  return std::min({points / kCopyBlock, readable_points / kCopyBlock, (writable - 1) / (3 * kCopyBlock)});
 }
 
 /// Native FLOAT32 x, y, z in a row at `offset`: block by block, and one by one where a block will not do.
@@ -154,23 +102,26 @@ void convertRowFloat3(const std::byte* row, std::size_t count, std::size_t step,
                       Progress& progress) {
   const UniformReader<float, false> read{{offset, offset + 4, offset + 8}};
   const float inf = std::numeric_limits<float>::infinity();
-  LaneBox box{{inf, inf, inf, inf}, {-inf, -inf, -inf, -inf}};
+  FloatBox box{{inf, inf, inf}, {-inf, -inf, -inf}};
   for (std::size_t i = 0; i < count;) {
     const std::byte* const at = row + i * step;
     const std::size_t wanted = copyableBlocks(at + offset, count - i, step, progress);
-    if (const std::size_t blocks = copyBlocks(at + offset, step, wanted, progress.out, box); blocks > 0) {
-      progress.keep(at, blocks * kBlock);
-      progress.out += 3 * kBlock * blocks;
-      i += blocks * kBlock;
-      continue;
+    const CopiedPoints copied = copyPoints(at + offset, step, wanted, ConvertedCloud::kReach, progress.out, box);
+    if (copied.blocks > 0) {
+      progress.keep(at, copied.blocks * kCopyBlock);
+      progress.out += 3 * kCopyBlock * copied.blocks;
+      i += copied.blocks * kCopyBlock;
     }
-    for (const std::size_t end = std::min(i + kBlock, count); i < end; ++i) {
+    // Where nothing can be copied, the rest one by one.
+    const std::size_t doubtful = wanted == 0 ? kCopyBlock : copied.doubtful;
+    for (const std::size_t end = std::min(i + doubtful, count); i < end; ++i) {
       progress.point(row + i * step, read(row + i * step));
     }
   }
   for (int axis = 0; axis < 3; ++axis) {
-    progress.low[axis] = std::min(progress.low[axis], static_cast<double>(box.low[axis]));
-    progress.high[axis] = std::max(progress.high[axis], static_cast<double>(box.high[axis]));
+    const auto lane = static_cast<std::size_t>(axis);
+    progress.low[axis] = std::min(progress.low[axis], static_cast<double>(box.low[lane]));
+    progress.high[axis] = std::max(progress.high[axis], static_cast<double>(box.high[lane]));
   }
 }
 

@@ -41,6 +41,33 @@ TEST(ConvertCloud, KeepsFinitePointsInOrderAndCountsTheOthers) {
   EXPECT_EQ(converted->cloud.box_max, glm::dvec3(7, 8, 9));
 }
 
+TEST(ConvertCloud, DropsNoneButTheBadPointWhereverItLies) {
+  // Long enough for whole chunks of the vectorised copy, and a rest.
+  std::vector<Xyz> points;
+  for (int i = 0; i < 1203; ++i) {
+    const auto value = static_cast<float>(i);
+    points.push_back({value, -value, value / 2});
+  }
+  for (const std::size_t at : {0, 1, 7, 8, 510, 511, 512, 513, 1023, 1024, 1195, 1202}) {
+    for (const float bad : {kNan, kInf, -kInf, 3e38F, -2e15F}) {
+      for (float Xyz::* const axis : {&Xyz::x, &Xyz::y, &Xyz::z}) {
+        std::vector<Xyz> spoilt = points;
+        spoilt[at].*axis = bad;
+        const auto converted = convert(xyzCloud(spoilt));
+        ASSERT_TRUE(converted);
+        ASSERT_EQ(converted->cloud.points, points.size() - 1);
+        ASSERT_EQ(converted->cloud.not_finite, std::isfinite(bad) ? 0U : 1U);
+        ASSERT_EQ(converted->cloud.out_of_reach, std::isfinite(bad) ? 1U : 0U);
+        ASSERT_EQ(converted->cloud.box_max.x, at + 1 == points.size() ? 1201.0 : 1202.0);
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+          const std::size_t kept = i < at ? i : i + 1;
+          ASSERT_EQ(converted->positions[3 * i + 2] + static_cast<float>(converted->cloud.origin.z), points[kept].z);
+        }
+      }
+    }
+  }
+}
+
 TEST(ConvertCloud, TakesZeroPointsWhateverTheFieldsSay) {
   PointCloud cloud;
   cloud.width = 0;

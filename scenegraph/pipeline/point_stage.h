@@ -12,13 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "scenegraph/pipeline/point_collection.h"
 #include "scenegraph/raster/point_raster.h"
-#include "scenegraph/raster/point_shading.h"
 
 namespace stillframe::scenegraph {
-
-/// Vertex attribute that holds their values.
-inline constexpr unsigned kPointValueAttribute = 6;
 
 /// How far the picture of a PointStage has come.
 struct PointProgress {

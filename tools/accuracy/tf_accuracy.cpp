@@ -2,8 +2,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
@@ -11,9 +9,9 @@
 
 #include "tf/chain_accumulator.h"
 #include "tf/wide_transform.h"
-#include "tools/accuracy/accuracy.h"
 #include "tools/accuracy/rigid_reference.h"
 #include "tools/accuracy/svg_plot.h"
+#include "tools/accuracy/tf_accuracy.h"
 
 namespace stillframe::accuracy {
 namespace {
@@ -123,9 +121,9 @@ double nanosecondsOf(const Method& method, const Chain& chain, double budget) {
   return best;
 }
 
-std::string tableOf(const std::vector<AccuracyRow>& rows) {
+std::string tableOf(const std::vector<TfAccuracyRow>& rows) {
   std::string table("| way | depth | offset (m) | error (m) | error (rad) | time (ns) |\n|---|--:|--:|--:|--:|--:|\n");
-  for (const AccuracyRow& row : rows) {
+  for (const TfAccuracyRow& row : rows) {
     std::array<char, 160> line{};
     std::snprintf(line.data(), line.size(), "| %s | %zu | %.0e | %.1e | %.1e | %.0f |\n", row.method.c_str(), row.depth,
                   row.offset_m, row.error_m, row.error_rad, row.nanoseconds);
@@ -134,7 +132,7 @@ std::string tableOf(const std::vector<AccuracyRow>& rows) {
   return table;
 }
 
-std::string plotOf(const std::vector<AccuracyRow>& rows, const std::vector<Method>& ways) {
+std::string plotOf(const std::vector<TfAccuracyRow>& rows, const std::vector<Method>& ways) {
   PlotFigure figure;
   figure.title = "Composing a chain of rigid transforms: error against run time";
   figure.caption =
@@ -149,7 +147,7 @@ std::string plotOf(const std::vector<AccuracyRow>& rows, const std::vector<Metho
     panel.title = title.data();
     for (const Method& way : ways) {
       PlotSeries series{std::string(way.name), {}};
-      for (const AccuracyRow& row : rows) {
+      for (const TfAccuracyRow& row : rows) {
         if (row.method == way.name && row.offset_m == offset) {
           series.points.push_back({row.nanoseconds, row.error_m});
         }
@@ -163,9 +161,9 @@ std::string plotOf(const std::vector<AccuracyRow>& rows, const std::vector<Metho
 
 }  // namespace
 
-AccuracyReport tfAccuracy(double seconds) {
-  AccuracyReport report;
-  report.name = "tf";
+TfAccuracy tfAccuracy(double seconds) {
+  TfAccuracy accuracy;
+  accuracy.report.name = "tf";
   const std::vector<Method> ways = methods();
   const double budget = seconds / static_cast<double>(ways.size() * kDepths.size() * kOffsets.size());
   for (const double offset : kOffsets) {
@@ -176,33 +174,19 @@ AccuracyReport tfAccuracy(double seconds) {
         chains.push_back(randomChain(random, depth, offset));
       }
       for (const Method& way : ways) {
-        AccuracyRow row{std::string(way.name), depth, offset, 0.0, 0.0, nanosecondsOf(way, chains.front(), budget)};
+        TfAccuracyRow row{std::string(way.name), depth, offset, 0.0, 0.0, nanosecondsOf(way, chains.front(), budget)};
         for (const Chain& chain : chains) {
           const RigidReference actual = way.compose(chain);
           row.error_m = std::max(row.error_m, placementError(actual, chain.expected));
           row.error_rad = std::max(row.error_rad, rotationError(actual, chain.expected));
         }
-        report.rows.push_back(row);
+        accuracy.rows.push_back(row);
       }
     }
   }
-  report.table = tableOf(report.rows);
-  report.svg = plotOf(report.rows, ways);
-  return report;
-}
-
-bool writeReport(const AccuracyReport& report, const std::string& directory) {
-  std::error_code failed;
-  std::filesystem::create_directories(directory, failed);
-  const auto write = [&](const char* extension, const std::string& text) {
-    std::ofstream file(std::filesystem::path(directory) / std::string(report.name).append(extension), std::ios::binary);
-    file << text;
-    file.close();
-    return file.good();
-  };
-  const bool table_written = write(".md", report.table);
-  const bool plot_written = write(".svg", report.svg);
-  return table_written && plot_written;
+  accuracy.report.table = tableOf(accuracy.rows);
+  accuracy.report.svg = plotOf(accuracy.rows, ways);
+  return accuracy;
 }
 
 }  // namespace stillframe::accuracy

@@ -1,30 +1,92 @@
 #include "tools/accuracy/accuracy.h"
 
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <string>
 
+#include "scenegraph/pipeline/offscreen_renderer.h"
+#include "tools/accuracy/points_accuracy.h"
+#include "tools/accuracy/tf_accuracy.h"
 #include "tools/cli/commands.h"
+#include "tools/cli/scene_session.h"
+#include "tools/cli/temporary_sample.h"
+#include "tools/sample/sample.h"
 
 namespace stillframe::cli {
 namespace {
 
+using accuracy::AccuracyReport;
+
 struct AccuracyOptions {
   std::string subject = "tf";
+  std::string file;
   std::string folder;
 };
 
+Result<AccuracyReport> reportOfTf(const AccuracyOptions& /*options*/) { return accuracy::tfAccuracy().report; }
+
+/// The clouds of the file's last instant, or of a sample made for it, as they are seen from above at an angle.
+Result<AccuracyReport> reportOfPoints(const AccuracyOptions& options) {
+  const TemporarySample sample;
+  ViewOptions view;
+  view.recording.file = options.file;
+  std::string what = printable(options.file);
+  if (options.file.empty()) {
+    view.recording.file = sample.path().string();
+    what = "The sample recording with large clouds";
+    constexpr sample::SampleOptions kLargeClouds{.duration_ns = 150'000'000, .lidar_points = 1'000'000};
+    if (const auto made = sample::writeSample(sample.path(), kLargeClouds); !made) {
+      return std::unexpected(fileError(view.recording.file, made.error()));
+    }
+  }
+  auto session = SceneSession::make(view);
+  if (!session) {
+    return std::unexpected(session.error());
+  }
+  scenegraph::Scene& scene = (*session)->scene();
+  for (const auto& slot : scene.layers()) {
+    slot->layer->setVisible(slot->type->consumes == scenegraph::ObjectType::PointCloud);
+  }
+  (*session)->showTime((*session)->time());
+  auto renderer = scenegraph::OffscreenRenderer::create();
+  if (!renderer) {
+    return failure(renderer.error().message);
+  }
+  auto measured = accuracy::pointsAccuracy(**renderer, scene.root(), (*session)->camera(), what);
+  if (!measured) {
+    return std::unexpected(fileError(view.recording.file, measured.error()));
+  }
+  return std::move(measured->report);
+}
+
+/// A subject is a line here and a file of tools/accuracy/.
+struct Subject {
+  const char* name;
+  const char* help;
+  Result<AccuracyReport> (*report)(const AccuracyOptions& options);
+};
+
+constexpr std::array kSubjects{
+    Subject{"tf", "the ways of composing a chain of transforms", &reportOfTf},
+    Subject{"points", "drawing fewer points, by each rasteriser, of FILE or of a sample", &reportOfPoints},
+};
+
 Result<void> runAccuracy(const AccuracyOptions& options) {
-  const accuracy::AccuracyReport report = accuracy::tfAccuracy();
-  std::fputs(report.table.c_str(), stdout);
+  const auto* const subject = std::ranges::find(kSubjects, options.subject, &Subject::name);
+  const auto report = subject->report(options);
+  if (!report) {
+    return std::unexpected(report.error());
+  }
+  std::fputs(report->table.c_str(), stdout);
   if (options.folder.empty()) {
     return {};
   }
-  if (!accuracy::writeReport(report, options.folder)) {
-    return failure(options.folder + ": cannot write " + report.name + ".md and " + report.name + ".svg there");
+  if (!accuracy::writeReport(*report, options.folder)) {
+    return failure(options.folder + ": cannot write " + report->name + ".md and " + report->name + ".svg there");
   }
-  std::printf("\n%s/%s.md\n%s/%s.svg\n", options.folder.c_str(), report.name.c_str(), options.folder.c_str(),
-              report.name.c_str());
+  std::printf("\n%s/%s.md\n%s/%s.svg\n", options.folder.c_str(), report->name.c_str(), options.folder.c_str(),
+              report->name.c_str());
   return {};
 }
 
@@ -32,9 +94,14 @@ Result<void> runAccuracy(const AccuracyOptions& options) {
 
 Command addAccuracyCommand(CLI::App& app) {
   auto options = std::make_shared<AccuracyOptions>();
-  app.add_option("SUBJECT", options->subject, "tf: the ways of composing a chain of transforms")
-      ->check(CLI::IsMember({"tf"}))
-      ->capture_default_str();
+  std::string help;
+  std::vector<std::string> names;
+  for (const Subject& subject : kSubjects) {
+    help += std::string(help.empty() ? "" : "; ") + subject.name + ": " + subject.help;
+    names.emplace_back(subject.name);
+  }
+  app.add_option("SUBJECT", options->subject, help)->check(CLI::IsMember(names))->capture_default_str();
+  app.add_option("FILE", options->file, "A recording to measure on, where the subject takes one");
   app.add_option("--out", options->folder, "Folder for the table and an SVG plot of error against run time");
   return [options] { return runAccuracy(*options); };
 }

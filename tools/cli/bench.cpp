@@ -1,7 +1,5 @@
-#include <unistd.h>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <random>
@@ -12,6 +10,7 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/json_text.h"
 #include "tools/cli/scene_session.h"
+#include "tools/cli/temporary_sample.h"
 #include "tools/sample/sample.h"
 
 namespace stillframe::cli {
@@ -20,23 +19,6 @@ namespace {
 struct BenchOptions {
   std::string file;
   bool is_json = false;
-};
-
-/// A sample recording that is gone at the end.
-class TemporarySample {
- public:
-  TemporarySample()
-      : path_(std::filesystem::temp_directory_path() / ("stillframe-bench-" + std::to_string(::getpid()) + ".mcap")) {}
-  ~TemporarySample() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  TemporarySample(const TemporarySample&) = delete;
-  TemporarySample& operator=(const TemporarySample&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 std::string processorName() {

@@ -10,6 +10,19 @@ namespace stillframe::nodes {
 using scenegraph::Status;
 using scenegraph::StatusLevel;
 
+namespace {
+
+osg::BoundingBoxd boxInFixed(const tf::RigidTransform& fixed_from_data, const osg::BoundingBoxd& box_in_data) {
+  osg::BoundingBoxd box_in_fixed;
+  for (unsigned i = 0; i < 8; ++i) {
+    const osg::Vec3d corner = box_in_data.corner(i);
+    box_in_fixed.expandBy(toOsg(tf::transformPoint(fixed_from_data, {corner.x(), corner.y(), corner.z()})));
+  }
+  return box_in_fixed;
+}
+
+}  // namespace
+
 void TopicLayer::attach(const scenegraph::LayerContext& context) {
   context_.emplace(context);
   node_ = new osg::MatrixTransform;
@@ -56,13 +69,15 @@ void TopicLayer::update(const scenegraph::Tick& tick) {
     }
     draw(placement);
     if (const osg::BoundingBoxd extent = box(); placement && extent.valid()) {
-      for (unsigned i = 0; i < 8; ++i) {
-        const osg::Vec3d corner = extent.corner(i);
-        bounds_.expandBy(toOsg(tf::transformPoint(*placement, {corner.x(), corner.y(), corner.z()})));
-      }
+      fixed_from_data_ = *placement;
+      bounds_ = boxInFixed(fixed_from_data_, extent);
     }
   }
   status_ = judge(anchor.has_value(), placement);
+}
+
+osg::BoundingBoxd TopicLayer::bulkInFixed() const {
+  return bounds_.valid() ? boxInFixed(fixed_from_data_, bulk()) : osg::BoundingBoxd();
 }
 
 void TopicLayer::hold(const std::optional<std::string>& frame) {

@@ -30,6 +30,7 @@ class TopicLayer : public scenegraph::Layer {
   [[nodiscard]] std::string sourceFrame() const final { return held_frame_.value_or(""); }
   [[nodiscard]] bool isPending() const final { return visible_ && context_ && isWorking(); }
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const final { return bounds_; }
+  [[nodiscard]] osg::BoundingBoxd bulkInFixed() const final;
 
  protected:
   /// fixed_from_data at the tick.
@@ -54,6 +55,8 @@ class TopicLayer : public scenegraph::Layer {
   virtual void draw(const Placement& fixed_from_data) = 0;
   /// Of what is drawn, in the data's own frame; invalid for nothing.
   [[nodiscard]] virtual osg::BoundingBoxd box() const = 0;
+  /// The same without stray points far off; only called when box() is valid.
+  [[nodiscard]] virtual osg::BoundingBoxd bulk() const { return box(); }
   /// Ok, or why load() did not bring what is wanted.
   [[nodiscard]] virtual const scenegraph::Status& sourceStatus() const = 0;
   /// What there is to say of data that is loaded and placed.
@@ -79,6 +82,7 @@ class TopicLayer : public scenegraph::Layer {
   bool visible_ = true;
   scenegraph::Status status_;
   osg::BoundingBoxd bounds_;
+  tf::RigidTransform fixed_from_data_;  // while bounds_ are valid
   std::optional<scenegraph::LayerContext> context_;
   std::optional<std::string> held_frame_;
   osg::ref_ptr<osg::MatrixTransform> node_;

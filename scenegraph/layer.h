@@ -69,6 +69,8 @@ class Layer {
   [[nodiscard]] virtual bool isPending() const = 0;
   /// Box of what is drawn, in the fixed frame, double; invalid when nothing is, or when it is mere reference (a grid).
   [[nodiscard]] virtual osg::BoundingBoxd boundsInFixed() const = 0;
+  /// The same without stray points far off: what a first view should hold. May take milliseconds.
+  [[nodiscard]] virtual osg::BoundingBoxd bulkInFixed() const { return boundsInFixed(); }
 
   /// Settings and what they may be now (a colour field's choices come from the data).
   [[nodiscard]] virtual std::vector<SettingSpec> settingSpecs() const = 0;

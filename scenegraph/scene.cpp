@@ -242,4 +242,14 @@ osg::BoundingBoxd Scene::boundsInFixed() const {
   return all;
 }
 
+osg::BoundingBoxd Scene::bulkInFixed() const {
+  osg::BoundingBoxd all;
+  for (const auto& slot : layers_) {
+    if (slot->layer->isVisible()) {
+      all.expandBy(slot->layer->bulkInFixed());
+    }
+  }
+  return all;
+}
+
 }  // namespace stillframe::scenegraph

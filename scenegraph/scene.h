@@ -61,6 +61,8 @@ class Scene {
   [[nodiscard]] bool isPending() const;
   /// Box of all visible layers in the fixed frame; the axes count, the reference grid does not.
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const;
+  /// The same without stray points far off: what a first view should hold.
+  [[nodiscard]] osg::BoundingBoxd bulkInFixed() const;
 
  private:
   /// All that the picture depends on beside the layers' settings.

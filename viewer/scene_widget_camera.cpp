@@ -161,7 +161,7 @@ void SceneWidget::frameIfWanted() {
   if (!wants_framing_ || scene_->isPending()) {
     return;
   }
-  const osg::BoundingBoxd box = scene_->boundsInFixed();
+  const osg::BoundingBoxd box = scene_->bulkInFixed();
   if (!box.valid()) {
     return;
   }

@@ -58,6 +58,18 @@ osg::BoundingBoxd PointCloudLayer::box() const {
   return cloud.points > 0 ? osg::BoundingBoxd(toOsg(cloud.box_min), toOsg(cloud.box_max)) : osg::BoundingBoxd();
 }
 
+osg::BoundingBoxd PointCloudLayer::bulk() const {
+  // A quarter of the spread beyond the 5th and 95th percentile at most: a cloud without strays keeps its whole box.
+  osg::BoundingBoxd bulk = box();
+  for (int axis = 0; axis < 3; ++axis) {
+    const ValueRange middle = product()->axisPercentiles(axis, 5.0, 95.0);
+    const double margin = (middle.high - middle.low) / 4.0;
+    bulk._min[axis] = std::max(bulk._min[axis], middle.low - margin);
+    bulk._max[axis] = std::min(bulk._max[axis], middle.high + margin);
+  }
+  return bulk;
+}
+
 void PointCloudLayer::show() {
   choice_ = {};
   geometry_->removePrimitiveSet(0, geometry_->getNumPrimitiveSets());

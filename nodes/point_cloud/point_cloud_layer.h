@@ -46,6 +46,7 @@ class PointCloudLayer : public SampleLayer<CloudPoints, PointCloudSettings> {
   [[nodiscard]] Anchor anchorOf(const CloudPoints& cloud) const override;
   void draw(const Placement& fixed_from_points) override;
   [[nodiscard]] osg::BoundingBoxd box() const override;
+  [[nodiscard]] osg::BoundingBoxd bulk() const override;
   [[nodiscard]] scenegraph::Status remark() const final;
   /// What a layer that draws without a fault has to say besides.
   [[nodiscard]] virtual scenegraph::Status feedRemark() const { return {}; }

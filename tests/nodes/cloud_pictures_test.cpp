@@ -104,6 +104,31 @@ TEST_F(CloudPicture, ColoursAxesInTheFixedFrameAfterTheLiveTransform) {
   expectNear(pixel(picture, 180, 100), colorAt("viridis", 1.0));
 }
 
+TEST_F(CloudPicture, LeavesStraysOutOfTheBoxOfItsBulk) {
+  const tf::RigidTransform map_from_lidar{.rotation = {1, 0, 0, 0}, .translation = {1000, 0, 0}};
+  CloudBuilder compact("lidar");
+  compact.xyz();
+  for (int i = 0; i <= 100; ++i) {
+    compact.point({i * 0.1, i * 0.2, 0});
+  }
+  open(datasetOf(compact.build(), map_from_lidar), "map");
+  add("/points", kBig);
+  scene_->update(tf::TimePoint{1_s});
+  EXPECT_NEAR(scene_->bulkInFixed().xMin(), 1000, 1e-6) << "no strays: the whole box";
+  EXPECT_NEAR(scene_->bulkInFixed().xMax(), 1010, 1e-6);
+  EXPECT_NEAR(scene_->bulkInFixed().yMax(), 20, 1e-6);
+
+  compact.point({1e6, -1e6, 5});
+  open(datasetOf(compact.build(), map_from_lidar), "map");
+  add("/points", kBig);
+  scene_->update(tf::TimePoint{1_s});
+  EXPECT_NEAR(scene_->boundsInFixed().xMax(), 1'001'000, 1) << "the box of all is that of all";
+  EXPECT_NEAR(scene_->bulkInFixed().xMin(), 1000, 1e-6);
+  EXPECT_LT(scene_->bulkInFixed().xMax(), 1016);
+  EXPECT_GT(scene_->bulkInFixed().yMin(), -11);
+  EXPECT_NEAR(scene_->bulkInFixed().yMax(), 20, 1);
+}
+
 TEST_F(CloudPicture, DrawsPointColoursByDefaultWhenThereAreAny) {
   CloudBuilder builder("lidar");
   builder.xyz().field("rgb", FieldType::Float32).field("intensity", FieldType::Float32);

@@ -144,7 +144,7 @@ Result<void> SceneSession::placeCamera() {
     rig_.reset();
   }
   rig_.change().frame(
-      scenegraph::transformBox(tf::inverse(follow_.fixedFromCamera()), scenegraph::toBox(scene_->boundsInFixed())),
+      scenegraph::transformBox(tf::inverse(follow_.fixedFromCamera()), scenegraph::toBox(scene_->bulkInFixed())),
       aspect);
   sight = rig_.model().sight();
   if (options_.eye) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <fstream>
+#include <string>
 
 #include "tests/tools/ingest/temporary_file.h"
 #include "tools/ingest/mcap_writer.h"
@@ -90,6 +92,46 @@ INSTANTIATE_TEST_SUITE_P(Variants, McapRoundTrip,
                                          Variant{"unchunked", options(Compression::None, 0, true, true)},
                                          Variant{"unchunked_no_summary", options(Compression::None, 0, true, false)}),
                          [](const auto& variant) { return variant.param.name; });
+
+/// Bytes this process has read from files so far.
+std::uint64_t bytesRead() {
+  std::ifstream io("/proc/self/io");
+  std::string key;
+  std::uint64_t value = 0;
+  io >> key >> value;
+  EXPECT_EQ(key, "rchar:");
+  return value;
+}
+
+TEST(McapFile, OpeningALargeFileReadsNothingButItsIndex) {
+  const TemporaryFile path;
+  constexpr std::size_t kChunk = std::size_t{4} << 20;
+  constexpr std::uint64_t kChunks = 48;
+  {
+    auto writer =
+        McapWriter::open(path.path(), {.compression = Compression::None, .chunk_bytes = kChunk, .has_crc = false});
+    ASSERT_TRUE(writer);
+    const auto topic = (*writer)->addChannel("/a", "pkg/A", "ros2msg", "int32 x", "cdr");
+    const std::vector<std::byte> bytes(kChunk);
+    for (std::uint64_t i = 0; i < kChunks; ++i) {
+      ASSERT_TRUE((*writer)->write(topic, i, i, bytes));
+    }
+    ASSERT_TRUE((*writer)->finish());
+  }
+  ASSERT_GT(std::filesystem::file_size(path.path()), kChunks * kChunk);
+  const std::uint64_t before = bytesRead();
+  const auto file = McapFile::open(path.path());
+  ASSERT_TRUE(file);
+  const std::uint64_t opened = bytesRead();
+  EXPECT_EQ((*file)->chunks().size(), kChunks);
+  EXPECT_LT(opened - before, 64U << 10);
+  std::vector<FoundMessage> found;
+  for (std::size_t chunk = 0; chunk < kChunks; ++chunk) {
+    (*file)->listMessages(chunk, found);
+  }
+  EXPECT_EQ(found.size(), kChunks);
+  EXPECT_LT(bytesRead() - opened, kChunks * 1024) << "the messages are listed from the indexes of the chunks";
+}
 
 TEST(McapWriter, NamesThePathItCannotWrite) {
   const auto writer = McapWriter::open("/nonexistent_folder/out.mcap");

@@ -94,6 +94,9 @@ class Builder {
                         std::isfinite(color.a) ? std::clamp(color.a, 0.0F, 1.0F) : 1.0F};
       // assimp gives meshes without one a material of this name.
       material.is_from_file = has_diffuse && material.name != AI_DEFAULT_MATERIAL_NAME;
+      if (!material.is_from_file) {
+        material.color = {1.0F, 1.0F, 1.0F, 1.0F};  // assimp's own, half transparent for STL
+      }
       int is_double_sided = 0;
       (void)from.Get(AI_MATKEY_TWOSIDED, is_double_sided);
       material.is_double_sided = is_double_sided != 0;

@@ -124,6 +124,21 @@ MeshLoader::Loaded MeshLoader::load(const std::string& uri, const std::filesyste
                : std::unexpected(bytes.error());
 }
 
+std::expected<std::vector<std::byte>, Status> MeshLoader::read(const std::string& uri,
+                                                               const std::filesystem::path& named_by) const {
+  const auto found = finder_.find(uri, named_by);
+  if (!found) {
+    return std::unexpected(found.error());
+  }
+  if (!found->attachment) {
+    return readFile(found->file);
+  }
+  const auto payload = found->attachment->read();
+  return payload ? std::expected<std::vector<std::byte>, Status>(
+                       std::vector<std::byte>(payload->bytes.begin(), payload->bytes.end()))
+                 : fail("MeshMissing", "the attachment '" + found->attachment->name + "': " + payload.error());
+}
+
 std::vector<MeshLoader::Loaded> MeshLoader::loadAll(std::span<const std::string> uris,
                                                     const std::filesystem::path& named_by,
                                                     const MeshOptions& options) const {

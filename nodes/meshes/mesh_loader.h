@@ -48,7 +48,9 @@ class MeshLoader {
   /// A mesh in memory; `format` is a file ending or a media type ("glb", "model/gltf-binary"). "" goes by the content.
   [[nodiscard]] Loaded loadBytes(std::span<const std::byte> bytes, std::string_view format,
                                  const MeshOptions& options = {}) const;
-  [[nodiscard]] const ResourceFinder& finder() const noexcept { return finder_; }
+  /// The bytes of a file that is named like a mesh: a texture of a robot's material.
+  [[nodiscard]] std::expected<std::vector<std::byte>, scenegraph::Status> read(
+      const std::string& uri, const std::filesystem::path& named_by = {}) const;
 
  private:
   [[nodiscard]] Loaded import(std::span<const std::byte> bytes, const std::string& format, const FoundResource& from,

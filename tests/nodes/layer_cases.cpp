@@ -3,6 +3,7 @@
 #include "nodes/registry.h"
 #include "scenegraph/objects/compressed_point_cloud.h"
 #include "scenegraph/objects/laser_scan.h"
+#include "scenegraph/objects/robot_description.h"
 #include "tests/nodes/grid_map_builder.h"
 #include "tests/nodes/images/image_builder.h"
 #include "tests/nodes/occupancy_grid/grid_builder.h"
@@ -135,6 +136,23 @@ void addEmptyDepthImage(DatasetBuilder& builder, std::int64_t log_ns, const std:
   builder.at(log_ns, depthImage16(frame, 4, std::vector<std::uint16_t>(12, 0)));
 }
 
+/// A box on the root link `frame`, and a wheel on a joint that nothing tells of.
+void addRobot(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame, unsigned seed) {
+  const std::string size = std::to_string(1 + seed % 5);
+  builder.at(log_ns,
+             scenegraph::RobotDescription{
+                 .format = "urdf",
+                 .text = "<robot name='r'><link name='" + frame + "'><visual><geometry><box size='" + size +
+                         " 1 1'/></geometry></visual></link><link name='wheel'><visual><geometry><cylinder radius='0." +
+                         size + "' length='1'/></geometry></visual></link><joint name='axle' type='continuous'>" +
+                         "<parent link='" + frame + "'/><child link='wheel'/><origin xyz='1 2 3'/></joint></robot>"});
+}
+
+void addEmptyRobot(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame) {
+  builder.at(log_ns, scenegraph::RobotDescription{.format = "urdf",
+                                                  .text = "<robot name='r'><link name='" + frame + "'/></robot>"});
+}
+
 }  // namespace
 
 std::vector<LayerCase> layerCases() {
@@ -145,7 +163,8 @@ std::vector<LayerCase> layerCases() {
           {.type = "occupancy_grid", .add = addGrid, .addEmpty = addEmptyGrid},
           {.type = "compressed_cloud", .add = addCompressedCloud, .addEmpty = addEmptyCompressedCloud},
           {.type = "grid_map", .add = addMap, .addEmpty = addEmptyMap},
-          {.type = "depth_image", .add = addDepthImage, .addEmpty = addEmptyDepthImage}};
+          {.type = "depth_image", .add = addDepthImage, .addEmpty = addEmptyDepthImage},
+          {.type = "robot_model", .add = addRobot, .addEmpty = addEmptyRobot}};
 }
 
 std::span<const scenegraph::LayerType> typesUnderTest() { return nodes::layerTypes(); }

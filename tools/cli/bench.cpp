@@ -166,6 +166,7 @@ Result<void> runBench(const BenchOptions& options) {
   benchClouds(results);
   benchCodecs(results);
   benchGrids(results);
+  benchRobot(results);
   benchTransforms(results);
   const unsigned cores = std::thread::hardware_concurrency();
   if (options.is_json) {

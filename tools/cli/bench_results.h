@@ -48,6 +48,8 @@ void benchClouds(std::vector<BenchResult>& results);
 void benchCodecs(std::vector<BenchResult>& results);
 /// States of an occupancy grid under a stream of patches.
 void benchGrids(std::vector<BenchResult>& results);
+/// Ticks of a robot of 200 links.
+void benchRobot(std::vector<BenchResult>& results);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
 

@@ -11,9 +11,12 @@ bool isKeyCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// Length of the key at the head of `text`, when a '=' follows it.
+/// Length of the key at the head of `text`, when a '=' follows it. Keys that begin with "link." name a link of a robot,
+/// which may hold more characters than others.
 std::optional<std::size_t> keyLength(std::string_view text) {
-  const auto length = static_cast<std::size_t>(std::ranges::find_if_not(text, isKeyCharacter) - text.begin());
+  const bool is_link = text.starts_with("link.");
+  const auto isPart = [&](char c) { return isKeyCharacter(c) || (is_link && (c == '.' || c == '-' || c == '/')); };
+  const auto length = static_cast<std::size_t>(std::ranges::find_if_not(text, isPart) - text.begin());
   return length > 0 && length < text.size() && text[length] == '=' ? std::optional(length) : std::nullopt;
 }
 

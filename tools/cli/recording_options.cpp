@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <map>
 
+#include "tools/ingest/robot_topics.h"
+
 namespace stillframe::cli {
 namespace {
 
@@ -49,6 +51,27 @@ void addTransformOptions(CLI::App& command, RecordingOptions& options) {
                    "Static transforms hold for all time, not only from their stamp on");
 }
 
+void addRobotOptions(CLI::App& command, RecordingOptions& options) {
+  command
+      .add_option("--package-path", options.package_paths,
+                  "Package, folder of packages or workspace where meshes are looked for; may be repeated")
+      ->type_name("FOLDER")
+      ->allow_extra_args(false);
+  command.add_option("--robot", options.robots, "A URDF file to show with the recording; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+}
+
+std::expected<void, scenegraph::Status> addRobots(scenegraph::Dataset& dataset, const RecordingOptions& options) {
+  dataset.resources().setSearchPaths({options.package_paths.begin(), options.package_paths.end()});
+  for (const std::string& file : options.robots) {
+    if (auto added = ingest::addRobotFile(dataset, file); !added) {
+      return added;
+    }
+  }
+  return {};
+}
+
 Result<scenegraph::TfClock> parseTfClock(std::string_view text) {
   const auto found = clocks().find(std::string(text));
   if (found == clocks().end()) {
@@ -65,6 +88,9 @@ Result<std::unique_ptr<ingest::Recording>> openRecording(const RecordingOptions&
   }
   (*recording)->dataset()->transforms()->setStaticForAllTime(options.static_always);
   (*recording)->load();
+  if (const auto added = addRobots(*(*recording)->dataset(), options); !added) {
+    return std::unexpected(fileError(options.file, added.error()));
+  }
   return std::move(*recording);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <expected>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,12 +18,20 @@ struct RecordingOptions {
   std::string file;
   scenegraph::TfClock clock = scenegraph::TfClock::Auto;
   bool static_always = false;
+  std::vector<std::string> package_paths;
+  std::vector<std::string> robots;
 };
 
 /// FILE, and the two options below.
 void addRecordingOptions(CLI::App& command, RecordingOptions& options);
 /// --tf-time and --static-always.
 void addTransformOptions(CLI::App& command, RecordingOptions& options);
+
+/// --package-path and --robot.
+void addRobotOptions(CLI::App& command, RecordingOptions& options);
+/// Puts what they name into the dataset; after the recording was opened.
+[[nodiscard]] std::expected<void, scenegraph::Status> addRobots(scenegraph::Dataset& dataset,
+                                                                const RecordingOptions& options);
 
 /// "auto", "header" or "log".
 [[nodiscard]] Result<scenegraph::TfClock> parseTfClock(std::string_view text);

@@ -64,6 +64,9 @@ viewer::RecordingOpener makeOpener(const RecordingOptions& options) {
     }
     const std::shared_ptr<ingest::Recording> recording = std::move(*opened);
     recording->dataset()->transforms()->setStaticForAllTime(options.static_always);
+    if (auto added = addRobots(*recording->dataset(), options); !added) {
+      return std::unexpected(added.error());
+    }
     return viewer::OpenedRecording{
         recording->dataset(), [recording](const std::function<bool(double)>& progress) { recording->load(progress); }};
   };
@@ -124,6 +127,7 @@ Command addViewCommand(CLI::App& app) {
   auto options = std::make_shared<ViewCommandOptions>();
   app.add_option("FILE", options->files, "Recordings: the parts of a split one; none: a window that waits for a drop");
   addTransformOptions(app, options->recording);
+  addRobotOptions(app, options->recording);
   app.add_option("--views", options->views, "Views side by side")
       ->check(CLI::Range(1, kMostViews))
       ->capture_default_str();

@@ -31,6 +31,7 @@ Result<std::pair<std::string, scenegraph::FollowMode>> parseFollow(const std::st
 
 ViewArguments::ViewArguments(CLI::App& command) {
   addRecordingOptions(command, options_.recording);
+  addRobotOptions(command, options_.recording);
   command.add_option("--time", time_, "Nanoseconds, +SECONDS from the start, start, or end")->capture_default_str();
   command.add_option("--fixed-frame", fixed_frame_, "Frame that stands still; default: map, world, odom, ...");
   command

@@ -16,6 +16,7 @@ target_include_directories(stillframe_draco SYSTEM INTERFACE ${DRACO_INCLUDE_DIR
 target_link_libraries(stillframe_draco INTERFACE ${DRACO_LINK_LIBRARIES})
 find_package(PNG REQUIRED)
 pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
+pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom console_bridge)
 pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 
 if(STILLFRAME_GL)

@@ -58,6 +58,11 @@ class McapFile {
   [[nodiscard]] const std::vector<ChunkPlace>& chunks() const noexcept { return index_.chunks; }
   [[nodiscard]] const std::optional<StatisticsRecord>& statistics() const noexcept { return index_.statistics; }
   [[nodiscard]] const std::vector<AttachmentIndexRecord>& attachments() const noexcept { return index_.attachments; }
+  /// The bytes of an attachment of this file. The error is one sentence. Any thread.
+  [[nodiscard]] static std::expected<std::vector<std::byte>, std::string> readAttachment(
+      const File& file, const AttachmentIndexRecord& attachment);
+  /// What keeps the file open for those who read it later.
+  [[nodiscard]] const std::shared_ptr<const File>& sharedFile() const noexcept { return file_; }
   [[nodiscard]] const std::vector<std::string>& metadataNames() const noexcept { return index_.metadata_names; }
   /// Whether open() had to scan: then scannedMessages() holds every message.
   [[nodiscard]] bool isScanned() const noexcept { return is_scanned_; }

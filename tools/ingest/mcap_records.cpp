@@ -88,7 +88,7 @@ std::optional<ChunkIndexRecord> parseChunkIndex(std::span<const std::byte> conte
 std::optional<AttachmentIndexRecord> parseAttachmentIndex(std::span<const std::byte> content) {
   FieldReader reader{content};
   AttachmentIndexRecord record;
-  static_cast<void>(reader.number<std::uint64_t>());  // offset
+  record.offset = reader.number<std::uint64_t>();
   static_cast<void>(reader.number<std::uint64_t>());  // length
   record.log_time = reader.number<std::uint64_t>();
   static_cast<void>(reader.number<std::uint64_t>());  // create time

@@ -93,6 +93,7 @@ struct ChunkIndexRecord {
 };
 
 struct AttachmentIndexRecord {
+  std::uint64_t offset = 0;  ///< of the attachment's record in the file
   std::uint64_t log_time = 0;
   std::uint64_t data_size = 0;
   std::string name;

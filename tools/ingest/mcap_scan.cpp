@@ -62,6 +62,7 @@ void McapFile::scan() {
         break;
       case Opcode::Attachment:
         if (auto attachment = parseAttachmentHeader(content(kMaxDefinitionBytes > there ? there : 4096))) {
+          attachment->offset = offset;
           index_.attachments.push_back(*std::move(attachment));
         }
         break;
@@ -169,6 +170,27 @@ void McapFile::addChannel(std::span<const std::byte> content) {
     problems_.add("ChannelRedefined", sentence("the channel id ", channel->id, " of '", file_->path(), "' is both '",
                                                known->second.topic, "' and '", channel->topic, "'; the first is used"));
   }
+}
+
+std::expected<std::vector<std::byte>, std::string> McapFile::readAttachment(const File& file,
+                                                                            const AttachmentIndexRecord& attachment) {
+  constexpr std::uint64_t kRecordHead = 1 + sizeof(std::uint64_t);  // opcode, length
+  // Times, the lengths of two texts, the length of the data.
+  const std::uint64_t head = kRecordHead + 3 * sizeof(std::uint64_t) + 2 * sizeof(std::uint32_t) +
+                             attachment.name.size() + attachment.media_type.size();
+  std::byte opcode{};
+  const bool is_there = attachment.offset < file.size() && head <= file.size() - attachment.offset &&
+                        attachment.data_size <= file.size() - attachment.offset - head &&
+                        file.read(attachment.offset, std::span(&opcode, 1)) == 1 &&
+                        opcode == static_cast<std::byte>(Opcode::Attachment);
+  if (!is_there) {
+    return std::unexpected(sentence("'", file.path(), "' does not hold it at byte ", attachment.offset));
+  }
+  std::vector<std::byte> bytes(attachment.data_size);
+  if (file.read(attachment.offset + head, bytes) != bytes.size()) {
+    return std::unexpected(sentence("'", file.path(), "' ends within it"));
+  }
+  return bytes;
 }
 
 }  // namespace stillframe::ingest

@@ -9,6 +9,7 @@
 
 #include "tools/ingest/mcap_file.h"
 #include "tools/ingest/mcap_source.h"
+#include "tools/ingest/robot_topics.h"
 #include "tools/ingest/sentence.h"
 
 namespace stillframe::ingest {
@@ -45,6 +46,7 @@ class McapRecording final : public Recording {
     dataset_->setTfClock(clock);
     addTopics();
     summarize();
+    addAttachments();
     reportProblems();
   }
 
@@ -194,6 +196,27 @@ class McapRecording final : public Recording {
     if (range) {
       dataset_->setTimeRange(toTimePoint(range->first), toTimePoint(range->second));
     }
+  }
+
+  /// Makes the attachments' files known to those who look for them.
+  void addAttachments() {
+    for (const auto& file : files_) {
+      for (const AttachmentIndexRecord& record : file->attachments()) {
+        dataset_->resources().addAttachment(
+            {.name = record.name,
+             .media_type = record.media_type,
+             .bytes = record.data_size,
+             .read = [opened = file->sharedFile(), record]() -> std::expected<scenegraph::Payload, std::string> {
+               auto bytes = McapFile::readAttachment(*opened, record);
+               if (!bytes) {
+                 return std::unexpected(bytes.error());
+               }
+               const auto held = std::make_shared<const std::vector<std::byte>>(std::move(*bytes));
+               return scenegraph::Payload{*held, held};
+             }});
+      }
+    }
+    addAttachedRobots(*dataset_);
   }
 
   /// Hands messages of the present file to the store, and clears them.

@@ -43,7 +43,7 @@ ALLOWED = {
     "tools": set(LIBRARIES) - {"Qt", "GoogleTest"},
 }
 WITHOUT_OSG = ("tf", "scenegraph/camera", "scenegraph/objects", "scenegraph/store", "nodes/images", "nodes/meshes",
-               "nodes/points", "tools/ingest")
+               "nodes/points", "nodes/robots", "tools/ingest")
 DOOR_TO_VIEWER = ("tools/cli", "viewer/inspector.h")
 
 

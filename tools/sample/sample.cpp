@@ -31,6 +31,8 @@ std::vector<std::unique_ptr<Topic>> makeTopics(const Stage& stage, const SampleO
   topics.push_back(makeDepthImages(stage));
   topics.push_back(makeCompressedLidar(stage, options.lidar_points, "cloudini"));
   topics.push_back(makeCompressedLidar(stage, options.lidar_points, "draco"));
+  topics.push_back(makeRobotDescription());
+  topics.push_back(makeArmStates(stage));
   return topics;
 }
 

@@ -32,6 +32,7 @@ TEST_F(MeshFormats, StlIsMetresAsItIs) {
   EXPECT_EQ((*mesh)->triangleCount(), 1U);
   expectNear((*mesh)->high, {1, 2, 3});
   EXPECT_FALSE((*mesh)->materials[0].is_from_file);
+  EXPECT_EQ((*mesh)->materials[0].color, (std::array<float, 4>{1, 1, 1, 1}));
 }
 
 TEST_F(MeshFormats, PlyKeepsColoursOfItsVertices) {

@@ -9,6 +9,13 @@ namespace {
 using testing::HasSubstr;
 using Settings = scenegraph::SettingTexts;
 
+TEST(LayerArgument, TakesLinksOfARobotAsKeys) {
+  const auto layer = parseLayer("/a/robot_description:opacity=0.5,link.left-arm/tip.visible=false");
+  ASSERT_TRUE(layer);
+  EXPECT_EQ(layer->topic, "/a/robot_description");
+  EXPECT_EQ(layer->settings.at("link.left-arm/tip.visible"), "false");
+}
+
 TEST(LayerArgument, TakesATopicAlone) {
   const auto layer = parseLayer("/lidar/points");
   ASSERT_TRUE(layer);

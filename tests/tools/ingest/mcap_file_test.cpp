@@ -73,6 +73,9 @@ TEST_P(McapRoundTrip, ReadsBackWhatWasWritten) {
   ASSERT_EQ((*file)->attachments().size(), 1u);
   EXPECT_EQ((*file)->attachments()[0].name, "note.txt");
   EXPECT_EQ((*file)->attachments()[0].data_size, 8u);
+  const auto attached = McapFile::readAttachment((*file)->file(), (*file)->attachments()[0]);
+  ASSERT_TRUE(attached) << attached.error();
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(attached->data()), attached->size()), "attached");
   EXPECT_THAT((*file)->metadataNames(), testing::ElementsAre("about"));
   EXPECT_TRUE((*file)->problems().take().empty());
 }

@@ -71,7 +71,9 @@ TEST_F(SampleFile, HoldsEveryTopicAtItsRate) {
                                                       {"/scan", 6},
                                                       {"/elevation_map", 1},
                                                       {"/map", 1},
-                                                      {"/map_updates", 3}};
+                                                      {"/map_updates", 3},
+                                                      {"/robot_description", 1},
+                                                      {"/joint_states", 11}};
   EXPECT_EQ(counts, expected);
   EXPECT_EQ(statistics.end_time - statistics.start_time, 1'000'000'000U);
   std::uint64_t messages = 0;

@@ -11,6 +11,7 @@
 #include "nodes/point_cloud/point_cloud_layer.h"
 #include "nodes/robot_model/robot_model_layer.h"
 #include "nodes/tf_axes/tf_axes_layer.h"
+#include "nodes/voxel_grid/voxel_grid_layer.h"
 
 namespace stillframe::nodes {
 
@@ -27,6 +28,7 @@ std::span<const scenegraph::LayerType> layerTypes() {
       {"grid_map", "Grid map", GridMap, &GridMapLayer::create},
       {"depth_image", "Depth image", Image, &DepthImageLayer::create},
       {"robot_model", "Robot", RobotDescription, &RobotModelLayer::create},
+      {"voxel_grid", "Voxel grid", VoxelGrid, &VoxelGridLayer::create},
   };
   return kTypes;
 }

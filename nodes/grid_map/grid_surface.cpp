@@ -126,7 +126,7 @@ osg::Texture2D* GridSurface::colors() const {
   const std::scoped_lock lock(lazy_->mutex);
   if (!lazy_->colors.valid()) {
     lazy_->colors = makeTexture(*map_, kRgba8, GL_RGBA, GL_UNSIGNED_BYTE);
-    convertMapColors(cells_, {lazy_->colors->getImage()->data(), 4 * cells_.all.points});
+    convertCellColors(cells_, {lazy_->colors->getImage()->data(), 4 * cells_.all.points});
   }
   return lazy_->colors.get();
 }

@@ -1,16 +1,12 @@
 #include "nodes/grid_map/map_cells.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-
-#include "nodes/points/read_value.h"
 
 namespace stillframe::nodes {
 namespace {
 
 using scenegraph::GridMap;
-using scenegraph::PackedField;
 using scenegraph::Status;
 using scenegraph::StatusLevel;
 
@@ -18,17 +14,6 @@ Status malformed(std::string message) { return {StatusLevel::Error, "MalformedGr
 
 std::string sizeText(const GridMap& map) {
   return std::to_string(map.column_count) + " x " + std::to_string(map.row_count) + " cells";
-}
-
-/// What one cell needs, to the end of its last known field; nullopt beyond 32 bits.
-std::optional<std::uint64_t> recordBytes(const GridMap& map) {
-  std::uint64_t bytes = 0;
-  for (const PackedField& field : map.fields) {
-    const std::uint64_t size = scenegraph::byteSize(field.type);
-    const std::uint64_t values = std::clamp<std::uint64_t>(field.count, 1, kMaxChannelValues);
-    bytes = size == 0 ? bytes : std::max(bytes, field.offset + size * values);
-  }
-  return bytes >> 32 == 0 ? std::optional(bytes) : std::nullopt;
 }
 
 std::optional<Status> findFault(const GridMap& map) {
@@ -46,7 +31,7 @@ std::optional<Status> findFault(const GridMap& map) {
                   "the map has " + sizeText(map) + ": at most " + std::to_string(kMaxMapSide) + " a side and " +
                       std::to_string(kMaxMapCells) + " in all are drawn"};
   }
-  const auto record = recordBytes(map);
+  const auto record = recordBytes(map.fields);
   const std::uint64_t needed = map.column_count == 0 || map.row_count == 0 || !record
                                    ? 0
                                    : std::uint64_t{map.row_count - 1} * map.row_stride +
@@ -66,19 +51,11 @@ std::expected<MapCells, Status> readMapCells(const GridMap& map) {
   if (auto fault = findFault(map)) {
     return std::unexpected(std::move(*fault));
   }
-  MapCells cells;
-  cells.records.fields = map.fields;
-  cells.records.data = map.data;
-  cells.records.is_bigendian = false;
+  MapCells cells = readPackedCells(map.fields, map.data);
   cells.records.width = map.column_count;
   cells.records.height = map.row_count;
   cells.records.point_step = map.cell_stride;
   cells.records.row_step = map.row_stride;
-  for (PackedField& field : cells.records.fields) {
-    if (field.name == "color" && field.type == scenegraph::FieldType::Float32) {
-      field.name = "rgb";
-    }
-  }
   if (map.column_count > 0) {
     cells.all.points = std::size_t{map.column_count} * map.row_count;
     cells.all.point_step = map.cell_stride;
@@ -86,45 +63,7 @@ std::expected<MapCells, Status> readMapCells(const GridMap& map) {
       cells.all.runs.push_back({row * map.row_stride, map.column_count});
     }
   }
-  cells.colors = findColors(cells.records);
-  for (const PackedField& field : cells.records.fields) {
-    const std::uint32_t bytes = scenegraph::byteSize(field.type);
-    if (bytes == 0 || std::ranges::find(cells.layers, field.name, &ChannelInfo::name) != cells.layers.end()) {
-      continue;
-    }
-    if (cells.colors && isColorField(*cells.colors, field.name)) {
-      if (field.name == "alpha" || field.name == "a") {
-        cells.alpha = ChannelInfo{field.name, field.offset, field.type};
-      }
-      continue;
-    }
-    for (std::uint32_t i = 0; i < std::clamp(field.count, 1U, kMaxChannelValues); ++i) {
-      cells.layers.push_back({field.count > 1 ? field.name + "[" + std::to_string(i) + "]" : field.name,
-                              field.offset + i * bytes, field.type});
-    }
-  }
   return cells;
-}
-
-void convertMapColors(const MapCells& cells, std::span<std::uint8_t> rgba) {
-  if (!cells.colors || cells.all.points == 0) {
-    return;
-  }
-  convertColors(cells.records, cells.all, *cells.colors, rgba);
-  if (!cells.alpha) {
-    return;
-  }
-  const ValueReader read = valueReader(cells.alpha->type, false);
-  const bool is_float =
-      cells.alpha->type == scenegraph::FieldType::Float32 || cells.alpha->type == scenegraph::FieldType::Float64;
-  std::uint8_t* out = rgba.data() + 3;
-  for (const PointRun& run : cells.all.runs) {
-    const std::byte* at = cells.records.data.bytes.data() + run.offset + cells.alpha->offset;
-    for (std::size_t i = 0; i < run.count; ++i, at += cells.all.point_step, out += 4) {
-      const double value = read(at) * (is_float ? 255.0 : 1.0);
-      *out = static_cast<std::uint8_t>(value >= 0.0 ? std::min(value + 0.5, 255.0) : 0.0);  // NaN is 0
-    }
-  }
 }
 
 void buildSurface(const GridMap& map, std::span<const float> heights, double heights_offset, double z_origin,

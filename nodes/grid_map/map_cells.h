@@ -10,9 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nodes/points/channel.h"
-#include "nodes/points/convert_cloud.h"
-#include "nodes/points/point_colors.h"
+#include "nodes/points/packed_cells.h"
 #include "scenegraph/objects/grid_map.h"
 #include "scenegraph/status.h"
 
@@ -20,13 +18,7 @@ namespace stillframe::nodes {
 
 /// A grid map whose sizes fit its data, with its cells seen as the points of a cloud, row by row, so that layers and
 /// colours are read by the conversions of clouds.
-struct MapCells {
-  scenegraph::PointCloud records;  ///< fields and data only; "color" of grid_map is named "rgb"
-  ConvertedCloud all;              ///< every cell
-  std::vector<ChannelInfo> layers;
-  std::optional<ColorSource> colors;
-  std::optional<ChannelInfo> alpha;  ///< of the colours, where they are fields of their own
-};
+using MapCells = PackedCells;
 
 /// A side beyond this is no texture everywhere; cells in all are bounded by kMaxMapCells.
 inline constexpr std::uint32_t kMaxMapSide = 16384;
@@ -35,9 +27,6 @@ inline constexpr std::size_t kMaxMapCells = std::size_t{1} << 24;
 /// "MalformedGrid": cell size or origin make no sense, or the data is too short; "TooManyCells". A map without cells is
 /// well-formed. The bytes stay those of `map`, which must outlive the result.
 [[nodiscard]] std::expected<MapCells, scenegraph::Status> readMapCells(const scenegraph::GridMap& map);
-
-/// Writes R, G, B, A for each cell.
-void convertMapColors(const MapCells& cells, std::span<std::uint8_t> rgba);
 
 /// A surface through the centres of the cells.
 ///

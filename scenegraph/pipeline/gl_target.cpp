@@ -25,6 +25,11 @@ std::vector<T> read(GLuint texture, GLenum format, GLenum type, std::size_t chan
 
 void bindFramebuffer(std::uint32_t fbo) { glBindFramebuffer(GL_FRAMEBUFFER, fbo); }
 
+void selectTextureUnits(std::uint32_t unit, std::uint32_t client_unit) {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glClientActiveTexture(GL_TEXTURE0 + client_unit);
+}
+
 bool isEnabled(std::uint32_t capability) { return glIsEnabled(capability) == GL_TRUE; }
 
 std::uint32_t incompleteStatus(std::uint32_t color_texture, std::uint32_t depth_texture) {

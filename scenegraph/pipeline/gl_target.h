@@ -8,6 +8,8 @@ namespace stillframe::scenegraph::gl {
 /// The OpenGL calls of the pipeline that OSG has no words for, on the context that is current.
 
 void bindFramebuffer(std::uint32_t fbo);
+/// For textures and, in the compatibility profile, for texture coordinates.
+void selectTextureUnits(std::uint32_t unit, std::uint32_t client_unit);
 [[nodiscard]] bool isEnabled(std::uint32_t capability);
 /// Status of a framebuffer with these two textures; 0 when it can be drawn into.
 [[nodiscard]] std::uint32_t incompleteStatus(std::uint32_t color_texture, std::uint32_t depth_texture);

@@ -199,13 +199,15 @@ void ViewPipeline::Impl::dropStages() {
 }
 
 /// Whoever uses the context between frames (a widget, a painter) leaves state that OSG does not know of. Modes are read
-/// back, for OSG 3.6's dirtyAllModes() only negates what it remembers: half of them are then wrong.
+/// back, for OSG 3.6's dirtyAllModes() only negates what it remembers: half of them are then wrong. The unit that is
+/// active it only ever remembers: a texture would be bound to another unit than it should.
 void ViewPipeline::Impl::adoptGlState() {
   osg::State& state = *window->getState();
   for (const GLenum mode : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_PROGRAM_POINT_SIZE, GL_POINT_SPRITE,
                             GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_MULTISAMPLE}) {
     state.haveAppliedMode(mode, gl::isEnabled(mode) ? osg::StateAttribute::ON : osg::StateAttribute::OFF);
   }
+  gl::selectTextureUnits(state.getActiveTextureUnit(), state.getClientActiveTextureUnit());
   state.dirtyAllAttributes();
   state.dirtyAllVertexArrays();
 }

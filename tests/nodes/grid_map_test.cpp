@@ -91,7 +91,7 @@ TEST(MapCells, FindsColoursOfCells) {
   ASSERT_TRUE(cells);
   EXPECT_EQ(cells->layers.size(), 1U);
   std::array<std::uint8_t, 4> rgba{};
-  nodes::convertMapColors(*cells, rgba);
+  nodes::convertCellColors(*cells, rgba);
   EXPECT_THAT(rgba, ElementsAre(10, 20, 30, 40));
 }
 

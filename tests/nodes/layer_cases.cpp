@@ -7,6 +7,7 @@
 #include "tests/nodes/grid_map_builder.h"
 #include "tests/nodes/images/image_builder.h"
 #include "tests/nodes/occupancy_grid/grid_builder.h"
+#include "tests/nodes/voxel_grid/voxel_builder.h"
 #include "tests/support/layer_contract.h"
 #include "tools/sample/cloudini_writer.h"
 
@@ -153,6 +154,19 @@ void addEmptyRobot(DatasetBuilder& builder, std::int64_t log_ns, const std::stri
                                                   .text = "<robot name='r'><link name='" + frame + "'/></robot>"});
 }
 
+void addVoxels(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame, unsigned seed) {
+  Random random(seed);
+  VoxelBuilder grid(4 + seed % 3, 3, 5, seed % 2);
+  grid.frame(frame).origin(random.transform(5.0));
+  grid.field("cost", seed % 2 == 0 ? FieldType::Uint8 : FieldType::Float32,
+             [&](auto, auto, auto) { return random.number(0, 100); });
+  builder.at(log_ns, grid.build());
+}
+
+void addEmptyVoxels(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame) {
+  builder.at(log_ns, VoxelBuilder(0, 3, 5).frame(frame).build());
+}
+
 }  // namespace
 
 std::vector<LayerCase> layerCases() {
@@ -164,7 +178,8 @@ std::vector<LayerCase> layerCases() {
           {.type = "compressed_cloud", .add = addCompressedCloud, .addEmpty = addEmptyCompressedCloud},
           {.type = "grid_map", .add = addMap, .addEmpty = addEmptyMap},
           {.type = "depth_image", .add = addDepthImage, .addEmpty = addEmptyDepthImage},
-          {.type = "robot_model", .add = addRobot, .addEmpty = addEmptyRobot}};
+          {.type = "robot_model", .add = addRobot, .addEmpty = addEmptyRobot},
+          {.type = "voxel_grid", .add = addVoxels, .addEmpty = addEmptyVoxels}};
 }
 
 std::span<const scenegraph::LayerType> typesUnderTest() { return nodes::layerTypes(); }

@@ -167,6 +167,7 @@ Result<void> runBench(const BenchOptions& options) {
   benchCodecs(results);
   benchGrids(results);
   benchRobot(results);
+  benchVoxels(results);
   benchTransforms(results);
   const unsigned cores = std::thread::hardware_concurrency();
   if (options.is_json) {

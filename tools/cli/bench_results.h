@@ -50,6 +50,8 @@ void benchCodecs(std::vector<BenchResult>& results);
 void benchGrids(std::vector<BenchResult>& results);
 /// Ticks of a robot of 200 links.
 void benchRobot(std::vector<BenchResult>& results);
+/// Voxel grids: conversion, ticks, and frames with the exposed voxels alone.
+void benchVoxels(std::vector<BenchResult>& results);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
 

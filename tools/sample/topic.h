@@ -48,6 +48,7 @@ class Topic {
 [[nodiscard]] std::unique_ptr<Topic> makeHeightMap(const Stage& stage);
 [[nodiscard]] std::unique_ptr<Topic> makeRobotDescription();
 [[nodiscard]] std::unique_ptr<Topic> makeArmStates(const Stage& stage);
+[[nodiscard]] std::unique_ptr<Topic> makeVoxels(const Stage& stage);
 
 /// Where the sensors are mounted: /tf_static says the same.
 [[nodiscard]] tf::RigidTransform baseFromLidar();

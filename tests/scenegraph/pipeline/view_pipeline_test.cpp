@@ -223,6 +223,18 @@ TEST_F(ViewPipelineTest, LetsAPassReadDepthAndItsParameters) {
   EXPECT_EQ(output.pixel(8, 8), (Rgb{0, 0, 0}));
 }
 
+TEST_F(ViewPipelineTest, BindsItsTexturesWhicheverUnitWasLeftActive) {
+  const Output output{16, 16};
+  root_->addChild(makeQuad(5, 5, 0, {1, 1, 0, 1}));
+  for (const GLenum unit : {3U, 0U, 5U}) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glClientActiveTexture(GL_TEXTURE0 + unit);
+    present(output);
+    EXPECT_EQ(output.pixel(8, 8), (Rgb{255, 255, 0})) << unit;
+    pipeline_->releaseGl();
+  }
+}
+
 TEST_F(ViewPipelineTest, ReleasesTwiceAndDrawsOn) {
   const Output output{16, 16};
   const LiveObjects before = LiveObjects::count();

@@ -70,6 +70,7 @@ TEST_F(SampleFile, HoldsEveryTopicAtItsRate) {
                                                       {"/rear_camera/depth/camera_info", 3},
                                                       {"/scan", 6},
                                                       {"/elevation_map", 1},
+                                                      {"/voxels", 1},
                                                       {"/map", 1},
                                                       {"/map_updates", 3},
                                                       {"/robot_description", 1},

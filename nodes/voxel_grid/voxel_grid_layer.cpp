@@ -1,0 +1,243 @@
+#include "nodes/voxel_grid/voxel_grid_layer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/osg_math.h"
+
+namespace stillframe::nodes {
+
+using scenegraph::Status;
+using scenegraph::StatusLevel;
+
+std::unique_ptr<scenegraph::Layer> VoxelGridLayer::create(std::string_view topic) {
+  return std::make_unique<VoxelGridLayer>(topic);
+}
+
+VoxelGridLayer::VoxelGridLayer(std::string_view topic)
+    : SampleLayer(
+          topic,
+          {.type = scenegraph::ObjectType::VoxelGrid,
+           .tag = "voxels",
+           .convert = [](const scenegraph::AnyObject& object,
+                         const scenegraph::Entry&) { return VoxelBlock::make(object.get<scenegraph::VoxelGrid>()); },
+           .is_reference = [](const VoxelBlock& block) { return block.voxels() > 0; },
+           .prepare = &VoxelGridLayer::prepare},
+          voxelGridSettingsTable()) {}
+
+void VoxelGridLayer::prepare(const VoxelBlock& block, const VoxelGridSettings& settings) {
+  const Choice choice = choose(settings, block);
+  const bool is_rgb = choice.mode == VoxelColorMode::Rgb;
+  (void)block.list(choice.drawn_by, is_rgb);
+  (void)block.field(choice.color);
+  (void)block.drawn(choice.drawn_by, testOf(settings, block.field(choice.drawn_by)), is_rgb);
+}
+
+void VoxelGridLayer::open(const scenegraph::LayerContext& context) {
+  SampleLayer::open(context);
+  geometry_ = addGeometry(state_.stateSet());
+}
+
+void VoxelGridLayer::close() {
+  SampleLayer::close();
+  geometry_ = nullptr;
+}
+
+TopicLayer::Anchor VoxelGridLayer::anchorOf(const VoxelBlock& block) const {
+  return {block.source().frame_id, block.source().origin};
+}
+
+VoxelGridLayer::Choice VoxelGridLayer::choose(const VoxelGridSettings& settings, const VoxelBlock& block) {
+  Choice choice;
+  const auto& fields = block.cells().layers;
+  if (settings.draw_field != "auto") {
+    (block.hasField(settings.draw_field) ? choice.drawn_by : choice.missing) = settings.draw_field;
+  }
+  if (choice.drawn_by.empty() && !fields.empty()) {
+    choice.drawn_by = fields.front().name;
+  }
+  std::string color = settings.color_field;
+  if (color == "auto") {
+    color = block.cells().colors ? "rgb" : choice.drawn_by;
+  }
+  if (color == "x" || color == "y" || color == "z") {
+    choice.mode = VoxelColorMode::Axis;
+    choice.axis = color[0] - 'x';
+  } else if (color == "rgb" && block.cells().colors) {
+    choice.mode = VoxelColorMode::Rgb;
+  } else if (block.hasField(color)) {
+    choice.mode = VoxelColorMode::Value;
+    choice.color = color;
+  } else if (color != "flat" && block.voxels() > 0) {
+    choice.missing = color;
+  }
+  return choice;
+}
+
+VoxelTest VoxelGridLayer::testOf(const VoxelGridSettings& settings, const VoxelField* field) {
+  using Mode = VoxelRule::Mode;
+  const std::string& name = settings.draw_if;
+  const Mode mode = name == "range"    ? Mode::Range
+                    : name == "equals" ? Mode::Equals
+                    : name == "bits"   ? Mode::Bits
+                    : name == "all"    ? Mode::All
+                                       : Mode::Above;
+  return field == nullptr ? VoxelTest{}
+                          : makeVoxelTest({.mode = mode,
+                                           .from = settings.draw_from,
+                                           .to = settings.draw_to,
+                                           .bits = static_cast<std::uint32_t>(settings.draw_bits)},
+                                          field->info.type, field->limits);
+}
+
+void VoxelGridLayer::show() {
+  choice_.reset();
+  reapply();
+  listed_ = 0;
+  geometry_->removePrimitiveSet(0, geometry_->getNumPrimitiveSets());
+  geometry_->setVertexArray(nullptr);
+  geometry_->dirtyBound();
+  state_.clearBuffers();
+}
+
+void VoxelGridLayer::build(const Choice& choice) {
+  product()->releaseGlObjects();
+  show();
+  choice_ = choice;
+  const VoxelBlock& block = *product();
+  node().setMatrix(toOsg(block.source().origin));
+  if (block.voxels() == 0) {
+    return;
+  }
+  const bool is_rgb = choice.mode == VoxelColorMode::Rgb;
+  const VoxelList& list = block.list(choice.drawn_by, is_rgb);
+  listed_ = list.voxels;
+  if (listed_ == 0) {
+    return;
+  }
+  state_.setBuffers(block, {.drawn_by = block.field(choice.drawn_by),
+                            .colored_by = block.field(choice.color),
+                            .colors = is_rgb ? block.colors() : nullptr,
+                            .list = &list});
+  // The vertices only hold the bound: the shader goes by their number.
+  const osg::BoundingBox bound(box());
+  osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
+  osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
+  for (unsigned side = 0; side < 3; ++side) {
+    for (unsigned corner = 0; corner < 4; ++corner) {
+      vertices->push_back(bound.corner((4 * side + corner) % 8));
+    }
+    for (const unsigned corner : {0U, 1U, 2U, 2U, 1U, 3U}) {
+      triangles->push_back(static_cast<GLushort>(4 * side + corner));
+    }
+  }
+  triangles->setNumInstances(static_cast<int>(listed_));
+  geometry_->setVertexArray(vertices);
+  geometry_->addPrimitiveSet(triangles);
+  geometry_->dirtyBound();
+}
+
+osg::BoundingBoxd VoxelGridLayer::box() const {
+  const glm::dvec3 size = product()->source().cell_size_m * glm::dvec3(product()->count());
+  return listed_ > 0 ? osg::BoundingBoxd(osg::Vec3d(), toOsg(size)) : osg::BoundingBoxd();
+}
+
+ValueRange VoxelGridLayer::fieldRange(const VoxelField& field) const {
+  const VoxelField* const held = chosen().range_mode == "manual" ? nullptr : reference()->field(field.info.name);
+  const bool is_held = held != nullptr && held->limits.finite > 0;
+  const ChannelValues& limits = is_held ? held->limits : field.limits;
+  return chosen().range([&] { return ValueRange{limits.low, limits.high}; },
+                        [&](double low, double high) {
+                          return (is_held ? *reference() : *product()).percentiles(field.info.name, low, high);
+                        });
+}
+
+ValueRange VoxelGridLayer::axisRange(const tf::RigidTransform& fixed_from_grid) const {
+  const int axis = choice_->axis;
+  const glm::dvec3 half = product()->source().cell_size_m * glm::dvec3(product()->count()) / 2.0;
+  const glm::dmat4 matrix = tf::toMatrix(fixed_from_grid);
+  const double centre = tf::transformPoint(fixed_from_grid, half)[axis];
+  double extent = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    extent += std::abs(matrix[i][axis]) * half[i];
+  }
+  const auto at = [&](double percent) { return centre + extent * (percent / 50.0 - 1.0); };
+  return chosen().range([&] { return ValueRange{at(0.0), at(100.0)}; },
+                        [&](double low, double high) { return ValueRange{at(low), at(high)}; });
+}
+
+void VoxelGridLayer::draw(const Placement& fixed_from_grid) {
+  if (const Choice choice = choose(chosen(), *product()); choice != choice_) {
+    build(choice);
+  }
+  const VoxelBlock& block = *product();
+  const bool is_rgb = choice_->mode == VoxelColorMode::Rgb;
+  if (takeSettings()) {
+    const VoxelColors* const colors = is_rgb ? block.colors() : nullptr;
+    state_.apply(chosen(), colors != nullptr && colors->is_translucent);
+    test_ = testOf(chosen(), block.field(choice_->drawn_by));
+    state_.setTest(test_);
+  }
+  RangeMap value_map;
+  osg::Vec4d axis_map;
+  if (const VoxelField* const field = block.field(choice_->color)) {
+    value_map = chosen().map(fieldRange(*field), field->limits.offset);
+  } else if (choice_->mode == VoxelColorMode::Axis && fixed_from_grid) {
+    const glm::dmat4 matrix = tf::toMatrix(*fixed_from_grid);
+    const RangeMap map = chosen().map(axisRange(*fixed_from_grid), matrix[3][choice_->axis]);
+    axis_map = {matrix[0][choice_->axis] * map.scale, matrix[1][choice_->axis] * map.scale,
+                matrix[2][choice_->axis] * map.scale, map.bias};
+  }
+  state_.setColor(choice_->mode, value_map);
+  state_.setAxisMap(axis_map);
+}
+
+Status VoxelGridLayer::remark() const {
+  if (!choice_->missing.empty()) {
+    std::string known = product()->cells().colors ? "rgb" : "";
+    for (const ChannelInfo& field : product()->cells().layers) {
+      known += (known.empty() ? "" : ", ") + field.name;
+    }
+    return {StatusLevel::Info, "UnknownField",
+            loadedText() + "no field '" + choice_->missing + "'; there are " + (known.empty() ? "none" : known)};
+  }
+  if (product()->voxels() == 0) {
+    return {StatusLevel::Info, "EmptyGrid", loadedText() + "the grid has no voxels"};
+  }
+  if (product()->drawn(choice_->drawn_by, test_, choice_->mode == VoxelColorMode::Rgb) == 0) {
+    return {StatusLevel::Info, "NothingDrawn",
+            loadedText() + "none of its " + std::to_string(product()->voxels()) +
+                " voxels is drawn by the present settings of draw_field and draw_if"};
+  }
+  return {};
+}
+
+scenegraph::LayerCounts VoxelGridLayer::counts() const {
+  if (product() == nullptr || !choice_) {
+    return {{"voxels", 0}, {"drawn", 0}, {"listed", 0}, {"bytes", 0}};
+  }
+  return {{"voxels", product()->voxels()},
+          {"drawn", product()->drawn(choice_->drawn_by, test_, choice_->mode == VoxelColorMode::Rgb)},
+          {"listed", listed_},
+          {"bytes", product()->source().data.bytes.size()}};
+}
+
+std::vector<scenegraph::SettingSpec> VoxelGridLayer::settingSpecs() const {
+  auto specs = SampleLayer::settingSpecs();
+  if (reference() != nullptr) {
+    for (auto& spec : specs) {
+      if (spec.key != "draw_field" && spec.key != "color_field") {
+        continue;
+      }
+      if (spec.key == "color_field" && reference()->cells().colors) {
+        spec.choices.insert(spec.choices.begin() + 1, "rgb");
+      }
+      for (const ChannelInfo& field : reference()->cells().layers) {
+        spec.choices.push_back(field.name);
+      }
+    }
+  }
+  return specs;
+}
+
+}  // namespace stillframe::nodes

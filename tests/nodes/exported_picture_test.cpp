@@ -1,11 +1,18 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <osgDB/ReadFile>
 
+#include "nodes/points/codecs/cloudini_header.h"
 #include "scenegraph/export/osgt_export.h"
+#include "scenegraph/objects/compressed_point_cloud.h"
+#include "scenegraph/objects/laser_scan.h"
+#include "tests/nodes/grid_map_builder.h"
 #include "tests/nodes/robot_scene.h"
 #include "tests/nodes/scene_picture.h"
 #include "tests/support/plain_viewer.h"
+#include "tools/sample/cloudini_writer.h"
 
 namespace stillframe::test {
 namespace {
@@ -42,6 +49,60 @@ std::size_t drawnInOne(const scenegraph::BytePicture& a, const scenegraph::ByteP
   return count;
 }
 
+/// A bay of 2 m round the sensor.
+scenegraph::LaserScan scan() {
+  scenegraph::LaserScan scan;
+  scan.frame_id = "lidar";
+  scan.stamp = {1_s};
+  scan.angle_min_rad = -3.0;
+  scan.angle_increment_rad = 0.01;
+  scan.range_max_m = 10.0;
+  for (int i = 0; i < 600; ++i) {
+    scan.ranges_m.push_back(1.6 + 0.4 * std::sin(0.05 * i));
+    scan.intensities.push_back(i);
+  }
+  return scan;
+}
+
+/// A slope of 40 x 40 points, packed.
+scenegraph::CompressedPointCloud packedCloud() {
+  nodes::cloudini::Header header;
+  header.version = 5;
+  header.width = 1600;
+  header.point_step = 16;
+  header.fields = {{"x", 0, nodes::cloudini::ValueType::Float32, 0.001F},
+                   {"y", 4, nodes::cloudini::ValueType::Float32, 0.001F},
+                   {"z", 8, nodes::cloudini::ValueType::Float32, 0.001F},
+                   {"intensity", 12, nodes::cloudini::ValueType::Float32, {}}};
+  std::vector<float> points;
+  for (int i = 0; i < 1600; ++i) {
+    const auto x = static_cast<float>(i % 40) * 0.08F - 1.6F;
+    const auto y = static_cast<float>(i / 40) * 0.08F - 1.6F;
+    points.insert(points.end(), {x, y, 0.3F * x, x * y});
+  }
+  scenegraph::CompressedPointCloud cloud;
+  cloud.frame_id = "lidar";
+  cloud.format = "cloudini";
+  cloud.data = sample::toPayload(sample::writeCloudini(header, std::as_bytes(std::span(points))));
+  return cloud;
+}
+
+/// Hills over 24 x 24 cells of 20 cm, with a hole.
+scenegraph::GridMap hills() {
+  scenegraph::GridMap map = GridMapBuilder(24, 24)
+                                .origin({.rotation = {1, 0, 0, 0}, .translation = {-2.4, -2.4, -0.5}})
+                                .layer("elevation",
+                                       [](auto column, auto row) {
+                                         return column == 5 && row == 18
+                                                    ? std::numeric_limits<double>::quiet_NaN()
+                                                    : 0.3 * std::sin(0.5 * column) * std::cos(0.4 * row);
+                                       })
+                                .layer("cost", [](auto column, auto row) { return static_cast<double>(column + row); })
+                                .build();
+  map.cell_size_m = {0.2, 0.2};
+  return map;
+}
+
 class ExportedPicture : public ScenePictureTest, public testing::WithParamInterface<ExportCase> {
  protected:
   void SetUp() override {
@@ -61,7 +122,11 @@ TEST_P(ExportedPicture, IsTheSameInAPlainViewer) {
   for (const glm::dvec3& place : places) {
     const bool is_far = place.x > 0.0;
     SCOPED_TRACE(is_far ? "at a UTM offset" : "at the origin");
-    open(robotAt(place), "utm");
+    DatasetBuilder robot = robotBuilderAt(place);
+    robot.topic("/scan", scenegraph::ObjectType::LaserScan).at(1_s, scan());
+    robot.topic("/packed", scenegraph::ObjectType::CompressedPointCloud).at(1_s, packedCloud());
+    robot.topic("/hills", scenegraph::ObjectType::GridMap).at(1_s, hills());
+    open(robot.build(), "utm");
     for (const LayerSetup& layer : GetParam().layers) {
       add(layer.topic, layer.settings);
     }
@@ -116,6 +181,10 @@ INSTANTIATE_TEST_SUITE_P(
                    {cloud({{"color_field", "flat"}, {"size_unit", "m"}, {"point_size", "0.05"}})},
                    5000,
                    5000},
+        ExportCase{"scan", {{"/scan", {{"point_size", "4"}}}}, 2000, 2000},
+        ExportCase{"compressed_cloud", {{"/packed", {{"color_field", "intensity"}, {"point_size", "3"}}}}, 4000, 4000},
+        ExportCase{"grid_map", {{"/hills", {}}}, 8000, 8000},
+        ExportCase{"grid_map_by_cost", {{"/hills", {{"color_field", "cost"}, {"shading", "false"}}}}, 8000, 8000},
         ExportCase{"axes", {kAxes}, 300, 300}, ExportCase{"grid", {kGrid}, 500, 0},
         ExportCase{
             "labels", {{"tf", {{"labels", "true"}, {"axes", "false"}, {"hidden_frames", "utm"}}}}, 300, 300, true},

@@ -10,8 +10,8 @@
 namespace stillframe::test {
 
 /// A wavy surface of 60 x 40 points with intensity and packed colours, and frames of a small robot; `map` lies at
-/// `utm_from_map` in the frame "utm".
-inline std::shared_ptr<scenegraph::Dataset> robotAt(const glm::dvec3& utm_from_map) {
+/// `utm_from_map` in the frame "utm". For more topics.
+inline DatasetBuilder robotBuilderAt(const glm::dvec3& utm_from_map) {
   CloudBuilder cloud("lidar");
   cloud.xyz().field("intensity", scenegraph::FieldType::Float32).field("rgb", scenegraph::FieldType::Float32);
   for (int row = 0; row < 40; ++row) {
@@ -25,15 +25,19 @@ inline std::shared_ptr<scenegraph::Dataset> robotAt(const glm::dvec3& utm_from_m
                    static_cast<double>(std::bit_cast<float>(word))});
     }
   }
-  return DatasetBuilder()
-      .topic("/tf", scenegraph::ObjectType::FrameTransforms)
+  DatasetBuilder builder;
+  builder.topic("/tf", scenegraph::ObjectType::FrameTransforms)
       .transform(0, "utm", "map", {.translation = utm_from_map})
       .transform(0, "map", "base", turn(0.3, 0.5, -0.25, 0.125))
       .transform(0, "base", "lidar", turn(-0.7, 0.4, 0.0, 0.9))
       .transform(0, "base", "arm", turn(1.1, -1.0, 1.2, 0.8))
       .topic("/points", scenegraph::ObjectType::PointCloud)
-      .at(1_s, cloud.build())
-      .build();
+      .at(1_s, cloud.build());
+  return builder;
+}
+
+inline std::shared_ptr<scenegraph::Dataset> robotAt(const glm::dvec3& utm_from_map) {
+  return robotBuilderAt(utm_from_map).build();
 }
 
 }  // namespace stillframe::test

@@ -1,5 +1,7 @@
 #include "nodes/coloring.h"
 
+#include <cmath>
+
 #include "nodes/points/colormap.h"
 
 namespace stillframe::nodes {
@@ -56,6 +58,43 @@ scenegraph::SettingsTable<ValueColoring> valueColoringTable(const std::string& a
             .minimum = 0,
             .maximum = 100},
            &S::percentile_high}};
+}
+
+ValueRange extentAlong(int axis, const tf::RigidTransform& fixed_from_data, const glm::dvec3& low,
+                       const glm::dvec3& high) {
+  // The extent of the eight moved corners, without making them.
+  const glm::dmat4 matrix = tf::toMatrix(fixed_from_data);
+  const double centre = tf::transformPoint(fixed_from_data, low / 2.0 + high / 2.0)[axis];
+  double extent = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    extent += std::abs(matrix[i][axis]) * (high[i] / 2 - low[i] / 2);
+  }
+  return {centre - extent, centre + extent};
+}
+
+glm::dvec4 axisMap(const ValueColoring& coloring, const ValueRange& range, int axis,
+                   const tf::RigidTransform& fixed_from_data, const glm::dvec3& origin) {
+  // Where the origin lies along the axis is taken off the range in double.
+  const RangeMap map = coloring.map(range, tf::transformPoint(fixed_from_data, origin)[axis]);
+  const glm::dmat4 matrix = tf::toMatrix(fixed_from_data);
+  return {matrix[0][axis] * map.scale, matrix[1][axis] * map.scale, matrix[2][axis] * map.scale, map.bias};
+}
+
+void offerFields(scenegraph::SettingSpec& spec, bool has_colors, std::span<const ChannelInfo> fields) {
+  if (has_colors) {
+    spec.choices.insert(spec.choices.begin() + 1, "rgb");
+  }
+  for (const ChannelInfo& field : fields) {
+    spec.choices.push_back(field.name);
+  }
+}
+
+std::string fieldNames(bool has_colors, std::span<const ChannelInfo> fields) {
+  std::string names = has_colors ? "rgb" : "";
+  for (const ChannelInfo& field : fields) {
+    names += (names.empty() ? "" : ", ") + field.name;
+  }
+  return names.empty() ? "none" : names;
 }
 
 }  // namespace stillframe::nodes

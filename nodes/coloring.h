@@ -1,9 +1,14 @@
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
 #include <string>
 
+#include "nodes/points/channel.h"
 #include "nodes/points/value_range.h"
 #include "scenegraph/settings.h"
+#include "tf/rigid_transform.h"
 
 namespace stillframe::nodes {
 
@@ -34,5 +39,17 @@ struct ValueColoring {
 /// Rows of ValueColoring, for SettingsTable::with(). `auto_help` says what range "auto" takes; `unit` is " (m)" or "".
 [[nodiscard]] scenegraph::SettingsTable<ValueColoring> valueColoringTable(const std::string& auto_help,
                                                                           const std::string& unit = "");
+
+/// What a box of the data, low to high, reaches along an axis of the fixed frame.
+[[nodiscard]] ValueRange extentAlong(int axis, const tf::RigidTransform& fixed_from_data, const glm::dvec3& low,
+                                     const glm::dvec3& high);
+/// t = dot(xyz, p) + w of points p of the data less `origin`, over a range along that axis; the shader's u_axis.
+[[nodiscard]] glm::dvec4 axisMap(const ValueColoring& coloring, const ValueRange& range, int axis,
+                                 const tf::RigidTransform& fixed_from_data, const glm::dvec3& origin = glm::dvec3(0.0));
+
+/// Adds rgb, where there are colours, and the fields to the choices of a setting whose first is auto.
+void offerFields(scenegraph::SettingSpec& spec, bool has_colors, std::span<const ChannelInfo> fields);
+/// "rgb, intensity, ring", or "none".
+[[nodiscard]] std::string fieldNames(bool has_colors, std::span<const ChannelInfo> fields);
 
 }  // namespace stillframe::nodes

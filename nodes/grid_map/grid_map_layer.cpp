@@ -162,12 +162,9 @@ void GridMapLayer::paint() {
 
 Status GridMapLayer::remark() const {
   if (!choice_->missing.empty()) {
-    std::string known = product()->cells().colors ? "rgb" : "";
-    for (const ChannelInfo& layer : product()->cells().layers) {
-      known += (known.empty() ? "" : ", ") + layer.name;
-    }
     return {StatusLevel::Info, "UnknownField",
-            loadedText() + "no layer '" + choice_->missing + "'; there are " + (known.empty() ? "none" : known)};
+            loadedText() + "no layer '" + choice_->missing + "'; there are " +
+                fieldNames(product()->cells().colors.has_value(), product()->cells().layers)};
   }
   return {};
 }
@@ -185,14 +182,8 @@ std::vector<scenegraph::SettingSpec> GridMapLayer::settingSpecs() const {
   auto specs = SampleLayer::settingSpecs();
   if (reference() != nullptr) {
     for (auto& spec : specs) {
-      if (spec.key != "height_field" && spec.key != "color_field") {
-        continue;
-      }
-      if (spec.key == "color_field" && reference()->cells().colors) {
-        spec.choices.insert(spec.choices.begin() + 1, "rgb");
-      }
-      for (const ChannelInfo& layer : reference()->cells().layers) {
-        spec.choices.push_back(layer.name);
+      if (spec.key == "height_field" || spec.key == "color_field") {
+        offerFields(spec, spec.key == "color_field" && reference()->cells().colors, reference()->cells().layers);
       }
     }
   }

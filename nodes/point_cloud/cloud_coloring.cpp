@@ -1,7 +1,6 @@
 #include "nodes/point_cloud/cloud_coloring.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace stillframe::nodes {
@@ -76,27 +75,18 @@ ValueRange channelRange(const PointCloudSettings& settings, const std::string& c
 
 ValueRange axisRange(const PointCloudSettings& settings, int axis, const CloudPoints& cloud,
                      const tf::RigidTransform& fixed_from_points) {
-  // The extent of the eight moved corners of a box, without making them.
-  const auto extentOf = [&](const glm::dvec3& low, const glm::dvec3& high) -> ValueRange {
-    const glm::dmat4 matrix = tf::toMatrix(fixed_from_points);
-    const double centre = tf::transformPoint(fixed_from_points, low / 2.0 + high / 2.0)[axis];
-    double extent = 0.0;
-    for (int i = 0; i < 3; ++i) {
-      extent += std::abs(matrix[i][axis]) * (high[i] / 2 - low[i] / 2);
-    }
-    return {centre - extent, centre + extent};
-  };
-  return settings.range([&] { return extentOf(cloud.converted().box_min, cloud.converted().box_max); },
-                        [&](double low_percent, double high_percent) {
-                          glm::dvec3 low;
-                          glm::dvec3 high;
-                          for (int i = 0; i < 3; ++i) {
-                            const ValueRange range = cloud.axisPercentiles(i, low_percent, high_percent);
-                            low[i] = range.low;
-                            high[i] = range.high;
-                          }
-                          return extentOf(low, high);
-                        });
+  return settings.range(
+      [&] { return extentAlong(axis, fixed_from_points, cloud.converted().box_min, cloud.converted().box_max); },
+      [&](double low_percent, double high_percent) {
+        glm::dvec3 low;
+        glm::dvec3 high;
+        for (int i = 0; i < 3; ++i) {
+          const ValueRange range = cloud.axisPercentiles(i, low_percent, high_percent);
+          low[i] = range.low;
+          high[i] = range.high;
+        }
+        return extentAlong(axis, fixed_from_points, low, high);
+      });
 }
 
 }  // namespace stillframe::nodes

@@ -45,6 +45,8 @@ void CloudState::apply(const PointCloudSettings& settings) {
 
 void CloudState::setMode(ColorMode mode, const RangeMap& map) { coloring_.setMode(static_cast<int>(mode), map); }
 
-void CloudState::setAxisMap(const osg::Vec4d& coefficients) { axis_->set(osg::Vec4(coefficients)); }
+void CloudState::setAxisMap(const glm::dvec4& coefficients) {
+  axis_->set(osg::Vec4(osg::Vec4d(coefficients.x, coefficients.y, coefficients.z, coefficients.w)));
+}
 
 }  // namespace stillframe::nodes

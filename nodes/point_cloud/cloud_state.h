@@ -1,8 +1,8 @@
 #pragma once
 
+#include <glm/vec4.hpp>
 #include <osg/StateSet>
 #include <osg/Uniform>
-#include <osg/Vec4d>
 #include <osg/ref_ptr>
 
 #include "nodes/coloring_state.h"
@@ -25,7 +25,7 @@ class CloudState {
   /// t = value * scale + bias of the array's values.
   void setMode(ColorMode mode, const RangeMap& map);
   /// t = dot(coefficients.xyz, vertex) + coefficients.w.
-  void setAxisMap(const osg::Vec4d& coefficients);
+  void setAxisMap(const glm::dvec4& coefficients);
 
  private:
   osg::ref_ptr<osg::StateSet> state_;

@@ -1,7 +1,5 @@
 #include "nodes/point_cloud/point_cloud_layer.h"
 
-#include <algorithm>
-
 #include "nodes/osg_math.h"
 #include "scenegraph/geometry.h"
 
@@ -97,18 +95,13 @@ void PointCloudLayer::draw(const Placement& fixed_from_points) {
   }
   // What the mode does not use is set all the same: the state must not tell where it came from.
   RangeMap value_map;
-  osg::Vec4d axis_map;
+  glm::dvec4 axis_map{0.0};
   if (choice_.mode == ColorMode::Value) {
     const ValueRange range = channelRange(chosen(), choice_.channel, *reference(), *product());
     value_map = chosen().map(range, product()->channel(choice_.channel)->limits.offset);
   } else if (choice_.mode == ColorMode::Axis && fixed_from_points) {
-    // The vertex is relative to the cloud's origin; where that lies along the axis is taken off the range in double.
     const ValueRange range = axisRange(chosen(), choice_.axis, *product(), *fixed_from_points);
-    const glm::dmat4 matrix = tf::toMatrix(*fixed_from_points);
-    const double origin = tf::transformPoint(*fixed_from_points, product()->converted().origin)[choice_.axis];
-    const RangeMap map = chosen().map(range, origin);
-    axis_map = {matrix[0][choice_.axis] * map.scale, matrix[1][choice_.axis] * map.scale,
-                matrix[2][choice_.axis] * map.scale, map.bias};
+    axis_map = axisMap(chosen(), range, choice_.axis, *fixed_from_points, product()->converted().origin);
   }
   state_.setMode(choice_.mode, value_map);
   state_.setAxisMap(axis_map);
@@ -125,13 +118,10 @@ void PointCloudLayer::setColorArrays() {
 
 Status PointCloudLayer::remark() const {
   if (choice_.is_missing) {
-    std::string known;
-    for (const ChannelInfo& channel : product()->channels()) {
-      known += ", " + channel.name;
-    }
+    const std::string known = fieldNames(product()->hasColors(), product()->channels());
     return {StatusLevel::Info, "UnknownField",
             loadedText() + "no field '" + chosen().color_field + "' to colour by; there are x, y, z" +
-                (product()->hasColors() ? ", rgb" : "") + known};
+                (known == "none" ? "" : ", " + known)};
   }
   const ConvertedCloud& cloud = product()->converted();
   if (const std::size_t dropped = cloud.not_finite + cloud.out_of_reach; dropped > 0) {
@@ -156,13 +146,7 @@ scenegraph::LayerCounts PointCloudLayer::counts() const {
 std::vector<scenegraph::SettingSpec> PointCloudLayer::settingSpecs() const {
   auto specs = SampleLayer::settingSpecs();
   if (reference() != nullptr) {
-    std::vector<std::string>& choices = specs.front().choices;
-    if (reference()->hasColors()) {
-      choices.insert(choices.begin() + 1, "rgb");
-    }
-    for (const ChannelInfo& channel : reference()->channels()) {
-      choices.push_back(channel.name);
-    }
+    offerFields(specs.front(), reference()->hasColors(), reference()->channels());
   }
   return specs;
 }

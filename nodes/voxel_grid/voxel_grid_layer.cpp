@@ -1,8 +1,5 @@
 #include "nodes/voxel_grid/voxel_grid_layer.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "nodes/osg_math.h"
 
 namespace stillframe::nodes {
@@ -153,17 +150,10 @@ ValueRange VoxelGridLayer::fieldRange(const VoxelField& field) const {
 }
 
 ValueRange VoxelGridLayer::axisRange(const tf::RigidTransform& fixed_from_grid) const {
-  const int axis = choice_->axis;
-  const glm::dvec3 half = product()->source().cell_size_m * glm::dvec3(product()->count()) / 2.0;
-  const glm::dmat4 matrix = tf::toMatrix(fixed_from_grid);
-  const double centre = tf::transformPoint(fixed_from_grid, half)[axis];
-  double extent = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    extent += std::abs(matrix[i][axis]) * half[i];
-  }
-  const auto at = [&](double percent) { return centre + extent * (percent / 50.0 - 1.0); };
-  return chosen().range([&] { return ValueRange{at(0.0), at(100.0)}; },
-                        [&](double low, double high) { return ValueRange{at(low), at(high)}; });
+  const glm::dvec3 size = product()->source().cell_size_m * glm::dvec3(product()->count());
+  const ValueRange all = extentAlong(choice_->axis, fixed_from_grid, glm::dvec3(0.0), size);
+  const auto at = [&](double percent) { return all.low + (all.high - all.low) * percent / 100.0; };
+  return chosen().range([&] { return all; }, [&](double low, double high) { return ValueRange{at(low), at(high)}; });
 }
 
 void VoxelGridLayer::draw(const Placement& fixed_from_grid) {
@@ -179,14 +169,11 @@ void VoxelGridLayer::draw(const Placement& fixed_from_grid) {
     state_.setTest(test_);
   }
   RangeMap value_map;
-  osg::Vec4d axis_map;
+  glm::dvec4 axis_map{0.0};
   if (const VoxelField* const field = block.field(choice_->color)) {
     value_map = chosen().map(fieldRange(*field), field->limits.offset);
   } else if (choice_->mode == VoxelColorMode::Axis && fixed_from_grid) {
-    const glm::dmat4 matrix = tf::toMatrix(*fixed_from_grid);
-    const RangeMap map = chosen().map(axisRange(*fixed_from_grid), matrix[3][choice_->axis]);
-    axis_map = {matrix[0][choice_->axis] * map.scale, matrix[1][choice_->axis] * map.scale,
-                matrix[2][choice_->axis] * map.scale, map.bias};
+    axis_map = axisMap(chosen(), axisRange(*fixed_from_grid), choice_->axis, *fixed_from_grid);
   }
   state_.setColor(choice_->mode, value_map);
   state_.setAxisMap(axis_map);
@@ -194,12 +181,9 @@ void VoxelGridLayer::draw(const Placement& fixed_from_grid) {
 
 Status VoxelGridLayer::remark() const {
   if (!choice_->missing.empty()) {
-    std::string known = product()->cells().colors ? "rgb" : "";
-    for (const ChannelInfo& field : product()->cells().layers) {
-      known += (known.empty() ? "" : ", ") + field.name;
-    }
     return {StatusLevel::Info, "UnknownField",
-            loadedText() + "no field '" + choice_->missing + "'; there are " + (known.empty() ? "none" : known)};
+            loadedText() + "no field '" + choice_->missing + "'; there are " +
+                fieldNames(product()->cells().colors.has_value(), product()->cells().layers)};
   }
   if (product()->voxels() == 0) {
     return {StatusLevel::Info, "EmptyGrid", loadedText() + "the grid has no voxels"};
@@ -226,14 +210,8 @@ std::vector<scenegraph::SettingSpec> VoxelGridLayer::settingSpecs() const {
   auto specs = SampleLayer::settingSpecs();
   if (reference() != nullptr) {
     for (auto& spec : specs) {
-      if (spec.key != "draw_field" && spec.key != "color_field") {
-        continue;
-      }
-      if (spec.key == "color_field" && reference()->cells().colors) {
-        spec.choices.insert(spec.choices.begin() + 1, "rgb");
-      }
-      for (const ChannelInfo& field : reference()->cells().layers) {
-        spec.choices.push_back(field.name);
+      if (spec.key == "draw_field" || spec.key == "color_field") {
+        offerFields(spec, spec.key == "color_field" && reference()->cells().colors, reference()->cells().layers);
       }
     }
   }

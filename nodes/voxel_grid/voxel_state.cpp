@@ -98,6 +98,8 @@ void VoxelState::setTest(const VoxelTest& test) {
 
 void VoxelState::setColor(VoxelColorMode mode, const RangeMap& map) { coloring_.setMode(static_cast<int>(mode), map); }
 
-void VoxelState::setAxisMap(const osg::Vec4d& coefficients) { axis_->set(osg::Vec4(coefficients)); }
+void VoxelState::setAxisMap(const glm::dvec4& coefficients) {
+  axis_->set(osg::Vec4(osg::Vec4d(coefficients.x, coefficients.y, coefficients.z, coefficients.w)));
+}
 
 }  // namespace stillframe::nodes

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec4.hpp>
 #include <osg/StateSet>
 #include <osg/Uniform>
-#include <osg/Vec4d>
 #include <osg/ref_ptr>
 
 #include "nodes/coloring_state.h"
@@ -39,7 +39,7 @@ class VoxelState {
   /// t = value * scale + bias of the stored values.
   void setColor(VoxelColorMode mode, const RangeMap& map);
   /// t = dot(coefficients.xyz, centre) + coefficients.w.
-  void setAxisMap(const osg::Vec4d& coefficients);
+  void setAxisMap(const glm::dvec4& coefficients);
 
  private:
   osg::ref_ptr<osg::StateSet> state_;

@@ -11,17 +11,26 @@ void relax() noexcept {
 #endif
 }
 
-/// Polls for some ten microseconds, then between yields for longer: with more threads than cores, the one
-/// waited for may need this core. False when it is time to sleep.
+/// Polls for some ten microseconds.
 template <typename Condition>
-bool spinUntil(const Condition& holds) noexcept {
+bool pollUntil(const Condition& holds) noexcept {
   constexpr int kPolls = 512;
-  constexpr int kYields = 64;
   for (int i = 0; i < kPolls; ++i) {
     if (holds()) {
       return true;
     }
     relax();
+  }
+  return false;
+}
+
+/// Polls, then gives way for a while: with more threads than cores, the one waited for may need this core. False when
+/// it is time to sleep.
+template <typename Condition>
+bool spinUntil(const Condition& holds) noexcept {
+  constexpr int kYields = 64;
+  if (pollUntil(holds)) {
+    return true;
   }
   for (int i = 0; i < kYields; ++i) {
     if (holds()) {
@@ -89,7 +98,7 @@ void ReaderGate::open() noexcept {
 }
 
 void ReaderGate::letReadersIn() const noexcept {
-  (void)spinUntil([this] { return kept_out_.load() == 0; });
+  (void)pollUntil([this] { return kept_out_.load() == 0; });  // one that sleeps is not waited for
 }
 
 }  // namespace stillframe::tf

@@ -39,7 +39,8 @@ STILLFRAME_LANES PlainLanes operator*(const PlainLanes& a, const PlainLanes& b) 
 /// Lane I of `from`, or with ~I its negative.
 template <int I>
 STILLFRAME_LANES double signedLane(const PlainLanes& from) {
-  return I < 0 ? -from[static_cast<std::size_t>(~I)] : from[static_cast<std::size_t>(I)];
+  constexpr auto kLane = static_cast<std::size_t>(I < 0 ? ~I : I);
+  return I < 0 ? -from[kLane] : from[kLane];
 }
 template <int A, int B, int C, int D>
 STILLFRAME_LANES void permute(const PlainLanes& from, PlainLanes& out) {

@@ -19,8 +19,7 @@ using Int4 [[gnu::vector_size(16)]] = std::int32_t;
 
 /// Whether the first three lanes are finite.
 STILLFRAME_LANES bool isFinite(const Float4& p) {
-  const Float4 difference = p - p;
-  const Int4 is_number = difference == difference;
+  const Int4 is_number = p * Float4{} == Float4{};  // zero times infinity is no number
 #if defined(__x86_64__)
   return (__builtin_ia32_movmskps(std::bit_cast<Float4>(is_number)) & 0b111) == 0b111;
 #else
@@ -66,7 +65,7 @@ STILLFRAME_LANES void spread(const Float4& axes, Float8& out) {
 template <typename Vector>
 STILLFRAME_LANES std::size_t copyFinite(const std::byte* at, std::size_t step, std::size_t blocks, float* out,
                                         FloatBox& box) {
-  constexpr std::size_t kPoints = sizeof(Vector) / sizeof(Float4);  // of a register
+  constexpr std::size_t kPoints = sizeof(Vector) / 16;  // of a register
   constexpr std::size_t kRegisters = kCopyBlock / kPoints;
   Vector low;
   Vector high;

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cctype>
+#include <exception>
 #include <fstream>
 #include <functional>
 #include <system_error>
@@ -146,7 +147,11 @@ std::vector<MeshLoader::Loaded> MeshLoader::loadAll(std::span<const std::string>
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < uris.size(); i = next++) {
-      loaded[i] = load(uris[i], named_by, options);
+      try {
+        loaded[i] = load(uris[i], named_by, options);
+      } catch (const std::exception& error) {  // out of memory: on a thread of our own nobody else would catch it
+        loaded[i] = fail("MeshTooLarge", "'" + uris[i] + "' cannot be loaded: " + error.what());
+      }
     }
   };
   const std::size_t cores = std::clamp(std::thread::hardware_concurrency(), 1U, 4U);

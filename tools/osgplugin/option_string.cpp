@@ -68,6 +68,10 @@ cli::Result<bool> apply(cli::ViewOptions& view, const std::string& key, const st
     done = assign(view.recording.clock, cli::parseTfClock(withoutQuotes(value)));
   } else if (key == "static_always") {
     view.recording.static_always = value.empty() || value == "true" || value == "1";
+  } else if (key == "package_path") {
+    view.recording.package_paths.push_back(withoutQuotes(value));
+  } else if (key == "robot") {
+    view.recording.robots.push_back(withoutQuotes(value));
   } else if (key == "layers") {
     done = addLayers(view, value);
   } else if (key == "layer") {

@@ -22,6 +22,8 @@ class ReaderWriterMcap final : public osgDB::ReaderWriter {
     supportsOption("layer=L", "Settings of one layer; may be repeated");
     supportsOption("tf_time=auto|header|log", "Clock of the transforms");
     supportsOption("static_always", "Static transforms hold for all time");
+    supportsOption("package_path=FOLDER", "Where meshes of robots are looked for; may be repeated");
+    supportsOption("robot=FILE", "A URDF file to show with the recording; may be repeated");
     supportsOption("height=PIXELS", "Height of the window, for points whose size is in metres");
   }
 

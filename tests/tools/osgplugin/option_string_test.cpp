@@ -6,6 +6,13 @@
 namespace stillframe::osgplugin {
 namespace {
 
+TEST(OptionString, TakesFoldersAndFilesOfRobots) {
+  const auto options = parseOptionString("package_path=/a package_path=\"/b c\" robot=/r.urdf");
+  ASSERT_TRUE(options);
+  EXPECT_EQ(options->view.recording.package_paths, (std::vector<std::string>{"/a", "/b c"}));
+  EXPECT_EQ(options->view.recording.robots, (std::vector<std::string>{"/r.urdf"}));
+}
+
 TEST(OptionString, TakesTimeFrameAndClock) {
   const auto options = parseOptionString("time=+12.5 fixed_frame=map  tf_time=log static_always");
   ASSERT_TRUE(options);

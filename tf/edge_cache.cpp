@@ -4,6 +4,25 @@
 
 namespace stillframe::tf {
 
+std::size_t EdgeCache::guessByDirectory(std::int64_t stamp) const noexcept {
+  const std::vector<std::int64_t>& firsts = directory_->firsts;
+  // The last entry at or before the stamp, without a branch to mispredict.
+  std::size_t entry = 0;
+  for (std::size_t count = firsts.size(); count > 1; count -= count / 2) {
+    entry += firsts[entry + count / 2] <= stamp ? count / 2 : 0;
+  }
+  const std::size_t first_block = entry * kDirectoryStep;
+  const bool is_last = entry + 1 == firsts.size();
+  const std::int64_t from = firsts[entry];
+  const std::int64_t to = is_last ? last_ : firsts[entry + 1];
+  if (stamp <= from || stamp >= to) {
+    return stamp <= from ? std::min(first_block, blocks_.size() - 1) : blocks_.size() - 1;
+  }
+  const std::size_t blocks = is_last ? blocks_.size() - std::min(first_block, blocks_.size() - 1) : kDirectoryStep;
+  const double place = halfSpan(from, stamp) / std::max(halfSpan(from, to), 1.0) * static_cast<double>(blocks);
+  return std::min(first_block + static_cast<std::size_t>(place), blocks_.size() - 1);
+}
+
 /// Gallops from the guess, then halves. Needs first_ <= stamp.
 std::size_t EdgeCache::searchBlock(std::size_t guess, std::int64_t stamp) const noexcept {
   // Invariant: blocks_[low].first <= stamp < blocks_[high].first, with the end standing for infinity.
@@ -71,6 +90,11 @@ void EdgeCache::append(TimePoint stamp, const RigidTransform& parent_from_child)
   ++size_;
   if (starts_block) {
     measureRate();
+    if (directory_ == nullptr) {
+      makeDirectory();
+    } else if ((blocks_.size() - 1) % kDirectoryStep == 0) {
+      directory_->firsts.push_back(stamp.ns);
+    }
   }
 }
 
@@ -121,6 +145,10 @@ void EdgeCache::split(std::size_t block_index) {
   high.first = high.samples.front().stamp_ns;
   blocks_.insert(blocks_.begin() + static_cast<std::ptrdiff_t>(block_index + 1), std::move(high));
   measureRate();
+  constexpr std::size_t kToleratedSplits = 8;
+  if (directory_ == nullptr || ++directory_->splits > kToleratedSplits) {
+    makeDirectory();
+  }
 }
 
 void EdgeCache::dropBefore(TimePoint cutoff) {
@@ -134,6 +162,7 @@ void EdgeCache::dropBefore(TimePoint cutoff) {
   }
   blocks_.erase(blocks_.begin(), blocks_.begin() + static_cast<std::ptrdiff_t>(whole));
   if (blocks_.empty()) {
+    directory_ = nullptr;
     return;
   }
   Block& block = blocks_.front();
@@ -144,6 +173,9 @@ void EdgeCache::dropBefore(TimePoint cutoff) {
   block.first = block.samples.front().stamp_ns;
   first_ = block.first;
   measureRate();
+  if (whole > 0) {
+    makeDirectory();
+  }
 }
 
 void EdgeCache::measureRate() noexcept {
@@ -151,8 +183,27 @@ void EdgeCache::measureRate() noexcept {
   blocks_per_half_span_ = static_cast<double>(blocks_.size() - 1) / std::max(span, 1.0);
 }
 
+void EdgeCache::makeDirectory() {
+  constexpr std::size_t kCachedAnyway = 64;  // blocks
+  if (blocks_.size() <= kCachedAnyway) {
+    directory_ = nullptr;
+    return;
+  }
+  if (directory_ == nullptr) {
+    directory_ = std::make_unique<Directory>();
+  }
+  directory_->splits = 0;
+  directory_->firsts.clear();
+  for (std::size_t block = 0; block < blocks_.size(); block += kDirectoryStep) {
+    directory_->firsts.push_back(blocks_[block].first);
+  }
+}
+
 std::size_t EdgeCache::bytes() const noexcept {
   std::size_t total = blocks_.capacity() * sizeof(Block);
+  if (directory_ != nullptr) {
+    total += sizeof(Directory) + directory_->firsts.capacity() * sizeof(std::int64_t);
+  }
   for (const Block& block : blocks_) {
     total += block.samples.capacity() * sizeof(Sample);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "tf/rigid_transform.h"
@@ -27,7 +28,9 @@ class EdgeCache {
   static_assert(sizeof(Sample) == 64);
 
   /// Sample in force at `time`, or nullptr when `time` precedes every stamp. Valid until the next change.
-  [[nodiscard]] const Sample* find(TimePoint time) const noexcept { return find(probe(guessBlock(time), time), time); }
+  [[nodiscard]] const Sample* find(TimePoint time) const noexcept {
+    return find(probe(guessBlockAgain(guessBlock(time), time), time), time);
+  }
   /// A search in four steps, for many edges at once: each step prefetches what the next one reads.
   struct Probe {
     const Sample* samples = nullptr;  ///< of the block in which the time lies; nullptr before the first stamp
@@ -70,6 +73,8 @@ class EdgeCache {
   [[nodiscard]] bool isInBlock(std::size_t block, std::int64_t stamp) const noexcept {
     return blocks_[block].first <= stamp && (block + 1 == blocks_.size() || stamp < blocks_[block + 1].first);
   }
+  /// A guess by the directory, for where the rate was not steady. Needs first_ <= stamp.
+  [[nodiscard]] std::size_t guessByDirectory(std::int64_t stamp) const noexcept;
   [[nodiscard]] std::size_t searchBlock(std::size_t guess, std::int64_t stamp) const noexcept;
   [[nodiscard]] static const Sample* searchSample(const Probe& probe, std::int64_t stamp) noexcept;
 
@@ -78,12 +83,21 @@ class EdgeCache {
   void makeRoom(Block& block) const;
   void split(std::size_t block);
   void measureRate() noexcept;
+  void makeDirectory();
 
   std::vector<Block> blocks_;  // none is empty
   std::size_t size_ = 0;
   std::int64_t first_ = 0;  // oldest and newest stamp, when size_ > 0
   std::int64_t last_ = 0;
   double blocks_per_half_span_ = 0.0;  // blocks per 2 ns, for guessBlock()
+
+  /// First stamp of every kDirectoryStep-th block; off by the few blocks that were split since it was made.
+  struct Directory {
+    std::vector<std::int64_t> firsts;
+    std::size_t splits = 0;
+  };
+  static constexpr std::size_t kDirectoryStep = 16;
+  std::unique_ptr<Directory> directory_;  // for many blocks only
 };
 
 inline std::size_t EdgeCache::guessBlock(TimePoint time) const noexcept {
@@ -94,22 +108,17 @@ inline std::size_t EdgeCache::guessBlock(TimePoint time) const noexcept {
   const double last_place = static_cast<double>(static_cast<std::int64_t>(blocks_.size() - 1));
   const auto guess = static_cast<std::int64_t>(std::min(place, last_place));
   __builtin_prefetch(&blocks_[static_cast<std::size_t>(guess)]);
+  __builtin_prefetch(&blocks_[static_cast<std::size_t>(guess)] + 1);  // past the end at worst: no harm in a prefetch
   return static_cast<std::size_t>(guess);
 }
 
-/// Blocks that filled out of order are not evenly full: from one near the right one, the way is short.
 inline std::size_t EdgeCache::guessBlockAgain(std::size_t guess, TimePoint time) const noexcept {
-  if (blocks_.size() < 2 || time.ns < first_) {
-    return 0;
+  if (directory_ == nullptr || time.ns < first_ || isInBlock(guess, time.ns)) {
+    return guess;
   }
-  const std::int64_t first = blocks_[guess].first;
-  const double away = first <= time.ns ? halfSpan(first, time.ns) * blocks_per_half_span_
-                                       : halfSpan(time.ns, first) * -blocks_per_half_span_ - 1.0;
-  const double last_place = static_cast<double>(static_cast<std::int64_t>(blocks_.size() - 1));
-  const double place = static_cast<double>(static_cast<std::int64_t>(guess)) + away;
-  const auto again = static_cast<std::size_t>(static_cast<std::int64_t>(std::clamp(place, 0.0, last_place)));
+  const std::size_t again = guessByDirectory(time.ns);
   __builtin_prefetch(&blocks_[again]);
-  __builtin_prefetch(&blocks_[again] + 1);  // past the end at worst, which a prefetch does not mind
+  __builtin_prefetch(&blocks_[again] + 1);
   return again;
 }
 

@@ -57,6 +57,11 @@ TEST(EdgeCache, FindsTheNewestAtOrBeforeForEvenAndExtremeSpacing) {
     bursts.push_back(i / 37 * 1'000'000'000 + i % 37);
   }
   cases.push_back(bursts);
+  std::vector<std::int64_t> sessions;  // enough blocks for a directory, and a pause of a day
+  for (std::int64_t i = 0; i < 12'000; ++i) {
+    sessions.push_back(i * 10 + (i < 7001 ? 0 : 86'400'000));
+  }
+  cases.push_back(sessions);
   for (const auto& stamps : cases) {
     const EdgeCache cache = cacheOf(stamps);
     for (const std::int64_t stamp : stamps) {
@@ -138,6 +143,34 @@ TEST(EdgeCache, AnyOrderOfArrivalEqualsAMap) {
         ASSERT_EQ(static_cast<int>(found->parent_from_child.translation.x), static_cast<int>(std::prev(after)->second));
       }
     }
+  }
+}
+
+TEST(EdgeCache, FindsEverySampleOfALongEdgeThatCameShuffled) {
+  constexpr std::size_t kCount = 20'000;
+  std::vector<std::int64_t> stamps(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    stamps[i] = static_cast<std::int64_t>(i * i / 16 + i);  // an ever slower rate
+  }
+  std::vector<std::int64_t> shuffled = stamps;
+  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937_64(5));
+  EdgeCache cache;
+  std::size_t inserted = 0;
+  for (const std::int64_t stamp : shuffled) {
+    cache.insert(TimePoint{stamp}, {});
+    if (++inserted % 4000 == 0) {
+      std::vector<std::int64_t> so_far(shuffled.begin(), shuffled.begin() + static_cast<std::ptrdiff_t>(inserted));
+      std::sort(so_far.begin(), so_far.end());
+      for (std::size_t i = 0; i < inserted; ++i) {
+        ASSERT_EQ(cache.find(TimePoint{so_far[i]})->stamp_ns, so_far[i]);
+        ASSERT_EQ(cache.find(TimePoint{i + 1 < inserted ? so_far[i + 1] - 1 : kMax})->stamp_ns, so_far[i]);
+      }
+    }
+  }
+  cache.dropBefore(TimePoint{stamps[kCount / 2]});
+  EXPECT_EQ(cache.find(TimePoint{stamps[kCount / 2] - 1}), nullptr);
+  for (std::size_t i = kCount / 2; i < kCount; ++i) {
+    ASSERT_EQ(cache.find(TimePoint{stamps[i]})->stamp_ns, stamps[i]);
   }
 }
 

@@ -71,6 +71,21 @@ BENCHMARK(bmLookup16DeepShuffledHour)
     ->Name("Lookup16DeepInOneHourThatCameShuffled/target_below_2us")
     ->Unit(benchmark::kMicrosecond);
 
+void bmLookup16DeepAcrossADay(benchmark::State& state) {
+  constexpr std::int64_t kDayNs = 86'400'000'000'000;
+  static ChainWorkload chain(16, 360'000, kDayNs);
+  static const auto buffer = [] {
+    auto loaded = chain.load();
+    chain.forgetSamples();
+    return loaded;
+  }();
+  lookupAnyTime(state, chain, *buffer);
+  state.counters["target_us"] = 2;
+}
+BENCHMARK(bmLookup16DeepAcrossADay)
+    ->Name("Lookup16DeepInTwoHalfHoursADayApart/target_below_2us")
+    ->Unit(benchmark::kMicrosecond);
+
 void bmLookup256DeepIn10sOf100Hz(benchmark::State& state) {
   static ChainWorkload chain(256, 1000);
   static const auto buffer = chain.load();

@@ -9,6 +9,7 @@ namespace stillframe::bench {
 namespace {
 
 constexpr std::int64_t kEpochNs = 1'700'000'000'000'000'000;
+constexpr std::int64_t kPeriodNs = 10'000'000;
 
 tf::RigidTransform randomPose(std::mt19937_64& random) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -22,19 +23,22 @@ std::string numbered(std::string_view prefix, std::size_t number) {
 
 }  // namespace
 
-ChainWorkload::ChainWorkload(std::size_t depth, std::size_t samples_per_edge, std::int64_t period_ns)
-    : first_ns_(kEpochNs + period_ns), last_ns_(kEpochNs + static_cast<std::int64_t>(samples_per_edge) * period_ns) {
+ChainWorkload::ChainWorkload(std::size_t depth, std::size_t samples_per_edge, std::int64_t pause_ns)
+    : first_ns_(kEpochNs + kPeriodNs),
+      last_ns_(kEpochNs + static_cast<std::int64_t>(samples_per_edge) * kPeriodNs + pause_ns) {
   for (std::size_t i = 0; i <= depth; ++i) {
     names_.push_back(numbered("robot_3/link_", i));
   }
-  std::uniform_int_distribution<std::int64_t> jitter(0, period_ns / 10);
+  std::uniform_int_distribution<std::int64_t> jitter(0, kPeriodNs / 10);
   samples_.reserve(depth * samples_per_edge);
   for (std::size_t tick = 0; tick < samples_per_edge; ++tick) {
+    const std::int64_t pause = 2 * tick < samples_per_edge ? 0 : pause_ns;
     for (std::size_t edge = 0; edge < depth; ++edge) {
-      const std::int64_t stamp = kEpochNs + static_cast<std::int64_t>(tick) * period_ns + jitter(random_);
+      const std::int64_t stamp = kEpochNs + pause + static_cast<std::int64_t>(tick) * kPeriodNs + jitter(random_);
       samples_.push_back({names_[edge], names_[edge + 1], tf::TimePoint{stamp}, randomPose(random_), false});
     }
   }
+  half_span_ns_ = (last_ns_ - first_ns_ - pause_ns) / 2;
 }
 
 void ChainWorkload::shuffle() { std::shuffle(samples_.begin(), samples_.end(), random_); }
@@ -48,7 +52,8 @@ std::unique_ptr<tf::TransformBuffer> ChainWorkload::load() const {
 void ChainWorkload::forgetSamples() { samples_ = {}; }
 
 tf::TimePoint ChainWorkload::randomTime() {
-  return {std::uniform_int_distribution<std::int64_t>(first_ns_, last_ns_)(random_)};
+  const auto since = std::uniform_int_distribution<std::int64_t>(0, 2 * half_span_ns_)(random_);
+  return {since <= half_span_ns_ ? first_ns_ + since : last_ns_ - (2 * half_span_ns_ - since)};
 }
 
 std::unique_ptr<tf::TransformBuffer> makeRandomTree(std::size_t frames) {

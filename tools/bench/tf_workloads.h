@@ -11,12 +11,13 @@
 
 namespace stillframe::bench {
 
-/// Samples of a chain of frames at a steady rate with a little jitter, edges taking turns as they do in a recording.
+/// Samples of a chain of frames at a steady 100 Hz with a little jitter, edges taking turns as they do in a recording.
 ///
 /// Seeded: every run is the same. Frame 0 is the root; frame i hangs below frame i - 1.
 class ChainWorkload {
  public:
-  ChainWorkload(std::size_t depth, std::size_t samples_per_edge, std::int64_t period_ns = 10'000'000);
+  /// `pause_ns`: halfway, the robot was switched off for so long.
+  ChainWorkload(std::size_t depth, std::size_t samples_per_edge, std::int64_t pause_ns = 0);
 
   [[nodiscard]] const std::vector<tf::TransformSample>& samples() const noexcept { return samples_; }
   void shuffle();
@@ -26,7 +27,7 @@ class ChainWorkload {
   void forgetSamples();
   [[nodiscard]] const std::string& root() const noexcept { return names_.front(); }
   [[nodiscard]] const std::string& leaf() const noexcept { return names_.back(); }
-  /// A time at which the whole chain has samples, uniform over its history.
+  /// A time at which the whole chain has samples, uniform over its history less the pause.
   [[nodiscard]] tf::TimePoint randomTime();
 
  private:
@@ -35,6 +36,7 @@ class ChainWorkload {
   std::vector<tf::TransformSample> samples_;
   std::int64_t first_ns_ = 0;
   std::int64_t last_ns_ = 0;
+  std::int64_t half_span_ns_ = 0;  // of the history less the pause
 };
 
 /// A tree of `frames` frames, each below a random earlier one, with one second of 100 Hz samples an edge.

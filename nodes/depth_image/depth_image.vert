@@ -24,5 +24,5 @@ void main() {
   } else if (u_color_mode == kDepth) {
     color = sfValueColor(a_depth);
   }
-  v_color = sfOutput(vec4(color, 1.0));
+  v_color = u_color_mode == kRgb ? sfGradedOutput(color) : sfOutput(vec4(color, 1.0));
 }

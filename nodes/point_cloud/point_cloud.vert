@@ -31,5 +31,5 @@ void main() {
   } else if (u_color_mode == kAxis) {
     color = sfMapped(dot(u_axis.xyz, gl_Vertex.xyz) + u_axis.w);
   }
-  v_color = sfOutput(vec4(color, u_opacity));
+  v_color = u_color_mode == kRgb && u_opacity >= 1.0 ? sfGradedOutput(color) : sfOutput(vec4(color, u_opacity));
 }

@@ -42,7 +42,29 @@ std::uint32_t incompleteStatus(std::uint32_t color_texture, std::uint32_t depth_
   return status == GL_FRAMEBUFFER_COMPLETE ? 0U : status;
 }
 
+int maxSamples() {
+  GLint colors = 1;
+  GLint depths = 1;
+  glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &colors);
+  glGetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &depths);
+  return std::min(colors, depths);
+}
+
+std::uint32_t makeSampledTexture(std::uint32_t internal_format, int samples, int width_px, int height_px) {
+  GLuint texture = 0;
+  glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &texture);
+  glTextureStorage2DMultisample(texture, samples, internal_format, width_px, height_px, GL_TRUE);
+  return texture;
+}
+
+void deleteTexture(std::uint32_t texture) { glDeleteTextures(1, &texture); }
+
 std::vector<float> readColor(std::uint32_t texture, int width_px, int height_px) {
+  GLint format = 0;
+  glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
+  if (format != GL_RGBA16F) {
+    return read<float>(texture, GL_RGBA, GL_FLOAT, 4, width_px, height_px);
+  }
   // As the halves they are: the driver takes longer to make floats of them.
   const auto halves = read<std::uint16_t>(texture, GL_RGBA, GL_HALF_FLOAT, 4, width_px, height_px);
   std::vector<float> values(halves.size());

@@ -13,7 +13,12 @@ void selectTextureUnits(std::uint32_t unit, std::uint32_t client_unit);
 [[nodiscard]] bool isEnabled(std::uint32_t capability);
 /// Status of a framebuffer with these two textures; 0 when it can be drawn into.
 [[nodiscard]] std::uint32_t incompleteStatus(std::uint32_t color_texture, std::uint32_t depth_texture);
-/// Texels of level 0 of a half-float texture as RGBA, bottom row first; waits for the GPU.
+/// Samples a pixel that colour and depth textures can have on this driver.
+[[nodiscard]] int maxSamples();
+/// A multisampled texture, whose deletion is the caller's.
+[[nodiscard]] std::uint32_t makeSampledTexture(std::uint32_t internal_format, int samples, int width_px, int height_px);
+void deleteTexture(std::uint32_t texture);
+/// Texels of level 0 of a colour texture as RGBA, bottom row first; waits for the GPU.
 [[nodiscard]] std::vector<float> readColor(std::uint32_t texture, int width_px, int height_px);
 /// The same of a 32-bit float depth texture, one float a pixel.
 [[nodiscard]] std::vector<float> readDepth(std::uint32_t texture, int width_px, int height_px);

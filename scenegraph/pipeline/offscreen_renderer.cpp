@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -84,6 +85,15 @@ std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const
                                   "a picture of " + size + " pixels is too large: at most " + std::to_string(largest) +
                                       " on a side and " + std::to_string(kMaxPixels) + " in all"});
   }
+  constexpr int kReadBackBytes = 20;  // colour and depth in floats
+  const double bytes = (bytesPerPixel(options.post) + kReadBackBytes) * options.width * options.height;
+  if (bytes > kMaxBytes) {
+    return std::unexpected(Status{StatusLevel::Error, "TooLarge",
+                                  "a picture of " + size + " pixels with these passes needs " +
+                                      std::to_string(std::llround(bytes / (1LL << 20))) + " MiB, at most " +
+                                      std::to_string(std::llround(kMaxBytes / (1LL << 20))) +
+                                      " are taken; make it smaller or take fewer samples"});
+  }
   if (!context_->makeCurrent()) {
     return std::unexpected(Status{StatusLevel::Error, "NoOpenGl", "the context is in use on another thread"});
   }
@@ -94,6 +104,7 @@ std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const
   }
   pipeline_->setView(view);
   pipeline_->setBackground(options.background);
+  pipeline_->setPostChain(options.post);
   const auto start = std::chrono::steady_clock::now();
   const auto drawn = pipeline_->renderLinear(options.width, options.height);
   if (!drawn) {
@@ -102,6 +113,7 @@ std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const
   glFinish();
   statistics_.frame_ms = millisecondsSince(start);
   statistics_.passes = pipeline_->passes();
+  statistics_.samples = pipeline_->samples();
   const auto read_start = std::chrono::steady_clock::now();
   Picture picture = toPicture(pipeline_->readLinear(), options, pipeline_->projectionMatrix());
   statistics_.read_back_ms = millisecondsSince(read_start);

@@ -14,7 +14,7 @@
 
 namespace stillframe::scenegraph {
 
-/// A picture as it left the scene pass: linear light, top row first.
+/// A picture as it left the last pass: linear light, top row first.
 struct Picture {
   int width = 0;
   int height = 0;
@@ -22,11 +22,12 @@ struct Picture {
   std::vector<float> depth_m;  ///< metres along the view axis; +infinity where nothing was drawn
 };
 
-/// How large and on what.
+/// How large, on what, and through which passes.
 struct RenderOptions {
   int width = 1280;
   int height = 720;
   Color background{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
+  PostChain post = {};
 };
 
 /// What the last render() did and took, in milliseconds of wall time with the GPU drained.
@@ -34,6 +35,7 @@ struct FrameStatistics {
   double frame_ms = 0.0;      ///< culling and drawing
   double read_back_ms = 0.0;  ///< from the target into the Picture
   std::vector<std::string> passes;
+  int samples = 1;  ///< of multisampling, a pixel
 };
 
 /// Pictures of scene graphs without a window: `stillframe render`, tests, servers. Any one thread.
@@ -45,14 +47,16 @@ class OffscreenRenderer {
   OffscreenRenderer& operator=(const OffscreenRenderer&) = delete;
 
   /// Draws `root` seen from `view`. Compiled programs and uploaded arrays are kept while `root` stays the same.
-  /// Refuses "BadSize" (not positive) and "TooLarge" (beyond the driver's largest texture or kMaxPixels).
+  /// Refuses "BadSize" (not positive) and "TooLarge" (beyond the driver's largest texture, kMaxPixels or kMaxBytes).
   std::expected<Picture, Status> render(osg::Group& root, const CameraView& view, const RenderOptions& options);
 
   [[nodiscard]] const FrameStatistics& lastFrame() const noexcept { return statistics_; }
   [[nodiscard]] OffscreenContext& context() noexcept { return *context_; }
 
-  /// 32 bytes a pixel are needed in all: 2 GiB.
+  /// 32 bytes a pixel are needed without passes: 2 GiB.
   static constexpr long long kMaxPixels = 1LL << 26;
+  /// Targets and the picture read back; four samples a pixel and all passes stay below it at kMaxPixels.
+  static constexpr double kMaxBytes = 6.0 * (1LL << 30);
 
  private:
   explicit OffscreenRenderer(std::unique_ptr<OffscreenContext> context) : context_(std::move(context)) {}

@@ -4,31 +4,16 @@
 #include <expected>
 #include <memory>
 #include <osg/Group>
-#include <osg/StateSet>
 #include <osg/ref_ptr>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "scenegraph/camera/camera.h"
+#include "scenegraph/pipeline/post_chain.h"
 #include "scenegraph/settings.h"
 #include "scenegraph/status.h"
 
 namespace stillframe::scenegraph {
-
-/// One full-screen step between the scene and what is shown.
-///
-/// The fragment shader (`#version 450 compatibility`) reads its inputs by texelFetch at ivec2(gl_FragCoord.xy) and
-/// writes gl_FragColor, scene-linear. A sampler2D uniform is set for each input; size and format are those of the
-/// scene.
-struct PostPass {
-  std::string name;             ///< as passes() prints it; also the name of its output, RGBA16F
-  std::string fragment_source;  ///< GLSL
-  /// Sampler uniform and what it reads: "scene" (colour), "depth" (reverse-Z: 1 near, 0 infinity) or an earlier pass.
-  std::vector<std::pair<std::string, std::string>> inputs;
-  /// Uniforms of the pass; changing their values needs no setPostPasses(). May be null.
-  osg::ref_ptr<osg::StateSet> parameters;
-};
 
 /// A frame read back, bottom row first, as OpenGL has it.
 struct LinearFrame {
@@ -40,9 +25,9 @@ struct LinearFrame {
 ///
 /// The window and the headless renderer use this one class: an osgViewer embedded in the context that is current,
 /// single threaded, with a context id of its own. The scene is drawn scene-linear into RGBA16F with a 32-bit float
-/// reverse-Z depth buffer, then by the post passes that were set, then by "present" (sRGB encoding) to the output. What
-/// no pass needs is not made. All that reverse-Z needs is state of this class's camera: the graph itself is exported to
-/// viewers with ordinary depth. Every call with a context current goes to the same thread.
+/// reverse-Z depth buffer, then by the passes of the chain that was set, then by "present" (sRGB encoding) to the
+/// output. What no pass needs is not made. All that reverse-Z needs is state of this class's camera: the graph itself
+/// is exported to viewers with ordinary depth. Every call with a context current goes to the same thread.
 class ViewPipeline {
  public:
   explicit ViewPipeline(const osg::ref_ptr<osg::Group>& root);
@@ -54,11 +39,13 @@ class ViewPipeline {
   void setView(const CameraView& view);
   /// What is behind everything; opaque, its alpha is ignored.
   void setBackground(const Color& background);
-  /// The passes between scene and present, in order; an empty list is the cheapest.
-  void setPostPasses(std::vector<PostPass> passes);
+  /// What happens between scene and present. A chain that differs from the one before in the values of uniforms alone
+  /// costs nothing; any other makes targets and shaders anew.
+  void setPostChain(PostChain chain);
 
   /// Draws one frame and presents it in `output_fbo`, over the whole of it. Sizes in device pixels; 0 draws nothing.
-  /// Error "TargetIncomplete": the driver cannot make targets of this size.
+  /// Errors: "TargetIncomplete", the driver cannot make targets of this size; "UnknownInput", a pass reads what nobody
+  /// writes.
   std::expected<void, Status> render(std::uint32_t output_fbo, int width_px, int height_px);
   /// The same without present, for readLinear(): what a picture file holds is not rounded to bytes on the way.
   std::expected<void, Status> renderLinear(int width_px, int height_px);
@@ -67,6 +54,8 @@ class ViewPipeline {
 
   /// Names of what the last render ran, in order: "scene", post passes, "present".
   [[nodiscard]] const std::vector<std::string>& passes() const noexcept;
+  /// Samples a pixel of the last render: 1, or what the chain asked for as far as the driver has them.
+  [[nodiscard]] int samples() const noexcept;
   /// The projection of the last render, for picking and for metres from depth.
   [[nodiscard]] const glm::dmat4& projectionMatrix() const noexcept;
 

@@ -13,9 +13,26 @@ vec3 sfLinearFromSrgb(vec3 srgb) {
   return mix(high, low, lessThanEqual(srgb, vec3(0.04045)));
 }
 
-// What a scene shader writes for an sRGB-encoded colour.
+// No NaN, nothing below 0 and nothing that a half float cannot hold goes into a target. By bits: a compiler may take it
+// that a value equals itself.
+vec3 sfFiniteColor(vec3 color) {
+  bvec3 is_nan = greaterThan(floatBitsToUint(color) & 0x7fffffffu, uvec3(0x7f800000u));
+  return mix(clamp(color, 0.0, 65504.0), vec3(0.0), is_nan);
+}
+
+// What a scene shader writes for an sRGB-encoded data colour: one that a legend explains or somebody has chosen. No tone
+// curve touches it. Alpha is opacity, and 1 where blending is off.
 vec4 sfOutput(vec4 srgb) {
-  return u_linear_output > 0.5 ? vec4(sfLinearFromSrgb(srgb.rgb), srgb.a) : srgb;
+  vec3 color = sfFiniteColor(srgb.rgb);
+  return u_linear_output > 0.5 ? vec4(sfLinearFromSrgb(color), srgb.a) : vec4(color, srgb.a);
+}
+
+// The same for an opaque lit or photographic colour, which exposure and tone mapping grade: in our target alpha is the
+// share of a pixel's light that they leave alone. Drawn with blending it is sfOutput() and a blend function whose factors
+// for alpha are (ZERO, ONE_MINUS_SRC_ALPHA).
+vec4 sfGradedOutput(vec3 srgb) {
+  vec3 color = sfFiniteColor(srgb);
+  return u_linear_output > 0.5 ? vec4(sfLinearFromSrgb(color), 0.0) : vec4(color, 1.0);
 }
 
 // Turns normals by a matrix with any scale: negative (normals stay outside), uneven, or zero along one axis.

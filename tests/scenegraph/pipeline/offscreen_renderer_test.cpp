@@ -210,5 +210,23 @@ TEST_F(OffscreenRendererTest, DrawsAnotherRootAfterTheFirst) {
   EXPECT_EQ(pixel(draw(lookDown(3.0), 9, 9), 4, 4), (std::array{255, 0, 0}));
 }
 
+TEST_F(OffscreenRendererTest, APassOfTwoInputsReadsThemAfterAnotherPipelineToo) {
+  PostChain chain;
+  chain.passes.push_back({.name = "both",
+                          .fragment_source = "#version 450 compatibility\n"
+                                             "uniform sampler2D u_image;\nuniform sampler2D u_depth;\nvoid main() {\n"
+                                             "  float depth = texelFetch(u_depth, ivec2(gl_FragCoord.xy), 0).r;\n"
+                                             "  gl_FragColor = texelFetch(u_image, ivec2(gl_FragCoord.xy), 0) * "
+                                             "(depth > 0.0 ? 1.0 : 0.0);\n}\n",
+                          .inputs = {{"u_image", "scene"}, {"u_depth", "depth"}}});
+  for (int round = 0; round < 3; ++round) {
+    root_ = new osg::Group;  // so that the renderer makes a pipeline for it, while the texture units stay as they were
+    root_->addChild(makeQuad(1, 1, 0, {1, 0, 0, 1}));
+    const auto picture = renderer_->render(*root_, lookDown(3.0), {.width = 9, .height = 9, .post = chain});
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(pixel(*picture, 4, 4), (std::array{255, 0, 0})) << round;
+  }
+}
+
 }  // namespace
 }  // namespace stillframe::scenegraph

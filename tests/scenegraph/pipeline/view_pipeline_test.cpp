@@ -1,7 +1,5 @@
 // Before OSG's headers, which bring the same ones without prototypes.
-#define GL_GLEXT_PROTOTYPES
-#include <GL/gl.h>
-#include <GL/glext.h>
+#include "tests/scenegraph/pipeline/live_objects.h"
 
 #include "scenegraph/pipeline/view_pipeline.h"
 
@@ -9,7 +7,6 @@
 
 #include <array>
 #include <memory>
-#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,33 +54,6 @@ class Output {
   GLuint color_ = 0;
   GLuint fbo_ = 0;
 };
-
-/// Names in use of each kind of object. The driver hands out low names first, so that a leak shows within the range.
-struct LiveObjects {
-  int textures = 0;
-  int framebuffers = 0;
-  int renderbuffers = 0;
-  int buffers = 0;
-  int programs = 0;
-
-  static LiveObjects count() {
-    LiveObjects live;
-    for (GLuint name = 1; name < 20'000; ++name) {
-      live.textures += glIsTexture(name) == GL_TRUE ? 1 : 0;
-      live.framebuffers += glIsFramebuffer(name) == GL_TRUE ? 1 : 0;
-      live.renderbuffers += glIsRenderbuffer(name) == GL_TRUE ? 1 : 0;
-      live.buffers += glIsBuffer(name) == GL_TRUE ? 1 : 0;
-      live.programs += glIsProgram(name) == GL_TRUE ? 1 : 0;
-    }
-    return live;
-  }
-  friend bool operator==(const LiveObjects&, const LiveObjects&) = default;
-};
-
-std::ostream& operator<<(std::ostream& out, const LiveObjects& live) {
-  return out << live.textures << " textures, " << live.framebuffers << " framebuffers, " << live.renderbuffers
-             << " renderbuffers, " << live.buffers << " buffers, " << live.programs << " programs";
-}
 
 /// A pass that writes an expression of `scene`, the colour it reads.
 PostPass makePass(const std::string& name, const std::string& input, const std::string& expression) {
@@ -182,13 +152,13 @@ TEST_F(ViewPipelineTest, FillsTheOutputAtEverySize) {
 TEST_F(ViewPipelineTest, RunsPostPassesInOrder) {
   const Output output{16, 16};
   root_->addChild(makeQuad(5, 5, 0, {1, 0, 0, 1}));
-  pipeline_->setPostPasses({makePass("invert", "scene", "1.0 - scene")});
+  pipeline_->setPostChain({.passes = {makePass("invert", "scene", "1.0 - scene")}});
   present(output);
   EXPECT_EQ(output.pixel(8, 8), (Rgb{0, 255, 255}));
   EXPECT_EQ(pipeline_->passes(), (Names{"scene", "invert", "present"}));
 
-  pipeline_->setPostPasses(
-      {makePass("invert", "scene", "1.0 - scene"), makePass("rotate", "invert", "scene.brg * vec3(1.0, 0.0, 1.0)")});
+  pipeline_->setPostChain({.passes = {makePass("invert", "scene", "1.0 - scene"),
+                                      makePass("rotate", "invert", "scene.brg * vec3(1.0, 0.0, 1.0)")}});
   present(output);
   EXPECT_EQ(output.pixel(8, 8), (Rgb{255, 0, 255}));  // (0, 1, 1) -> (1, 0, 1)
   EXPECT_EQ(pipeline_->passes(), (Names{"scene", "invert", "rotate", "present"}));
@@ -198,7 +168,7 @@ TEST_F(ViewPipelineTest, RunsPostPassesInOrder) {
   EXPECT_EQ(linear.rgba[0], 1.0F);
   EXPECT_EQ(linear.rgba[1], 0.0F);
 
-  pipeline_->setPostPasses({});
+  pipeline_->setPostChain({});
   present(output);
   EXPECT_EQ(output.pixel(8, 8), (Rgb{255, 0, 0}));
 }
@@ -214,7 +184,7 @@ TEST_F(ViewPipelineTest, LetsAPassReadDepthAndItsParameters) {
                 new osg::StateSet};
   osg::ref_ptr<osg::Uniform> gain = new osg::Uniform{"u_gain", 300.0F};
   pass.parameters->addUniform(gain);
-  pipeline_->setPostPasses({pass});
+  pipeline_->setPostChain({.passes = {pass}});
   present(output);
   EXPECT_EQ(output.pixel(8, 8), (Rgb{255, 255, 255}));  // near 0.01 m / 3 m * 300 = 1
   EXPECT_EQ(output.pixel(0, 8), (Rgb{0, 0, 0}));
@@ -239,7 +209,7 @@ TEST_F(ViewPipelineTest, ReleasesTwiceAndDrawsOn) {
   const Output output{16, 16};
   const LiveObjects before = LiveObjects::count();
   root_->addChild(makeQuad(5, 5, 0, {1, 1, 0, 1}));
-  pipeline_->setPostPasses({makePass("invert", "scene", "1.0 - scene")});
+  pipeline_->setPostChain({.passes = {makePass("invert", "scene", "1.0 - scene")}});
   for (int round = 0; round < 3; ++round) {
     present(output);
     EXPECT_EQ(output.pixel(8, 8), (Rgb{0, 0, 255})) << round;
@@ -255,13 +225,13 @@ TEST_F(ViewPipelineTest, LeaksNothingOverAThousandResizesAndToggles) {
   root_->addChild(makeQuad(5, 5, 0, {1, 0, 1, 1}));
   const std::vector<PostPass> passes{makePass("invert", "scene", "1.0 - scene")};
   const auto settle = [&] {
-    pipeline_->setPostPasses({});
+    pipeline_->setPostChain({});
     EXPECT_TRUE(pipeline_->render(output.id(), 100, 100));
     EXPECT_TRUE(pipeline_->render(output.id(), 100, 100));
     return LiveObjects::count();
   };
   (void)settle();
-  pipeline_->setPostPasses(passes);
+  pipeline_->setPostChain({.passes = passes});
   EXPECT_TRUE(pipeline_->render(output.id(), 100, 100));
   const LiveObjects at_first = settle();
   for (int i = 0; i < 1000; ++i) {
@@ -269,7 +239,7 @@ TEST_F(ViewPipelineTest, LeaksNothingOverAThousandResizesAndToggles) {
   }
   EXPECT_EQ(settle(), at_first) << "after resizing";
   for (int i = 0; i < 1000; ++i) {
-    pipeline_->setPostPasses(i % 2 == 0 ? passes : std::vector<PostPass>{});
+    pipeline_->setPostChain({.passes = i % 2 == 0 ? passes : std::vector<PostPass>{}});
     EXPECT_TRUE(pipeline_->render(output.id(), 100, 100));
   }
   EXPECT_EQ(settle(), at_first) << "after toggling";

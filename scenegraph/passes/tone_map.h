@@ -1,0 +1,27 @@
+#pragma once
+
+#include "scenegraph/passes/effect.h"
+
+namespace stillframe::scenegraph {
+
+/// Exposure and tone mapping of lit and photographic light. Data colours are not graded.
+///
+/// The alpha of the scene's target is the share of a pixel's light that is data: colours that a legend explains, or
+/// that somebody has chosen. It composes by itself: an opaque data colour writes 1, a translucent one is blended with
+/// (ONE, ONE_MINUS_SRC_ALPHA) in alpha, as every layer does; lit and photographic colours write 0 (sfGradedOutput() in
+/// common.glsl), or blend with (ZERO, ONE_MINUS_SRC_ALPHA). What is graded is then mix(curve(light), light, alpha): a
+/// data colour, over data or over the background, comes out as it went in, bit for bit, under every curve. A
+/// translucent data colour over a graded surface gets its own share ungraded and the surface's share graded, the curve
+/// being taken of the sum, which is the one thing here that is not exact.
+///
+/// Curves: "none" (exposure alone), "aces" (K. Narkowicz's fit of the ACES filmic curve, 2016), "neutral" (the Khronos
+/// PBR Neutral tone mapper, 2024, which leaves colours below 0.8 as they are but for 4 % of black). All are monotone.
+struct ToneMapSettings {
+  std::string curve = "neutral";
+  double exposure = 0.0;  ///< EV: each step doubles the light
+};
+
+[[nodiscard]] EffectType toneMapEffect();
+void appendToneMap(const ToneMapSettings& settings, PostChain& chain);
+
+}  // namespace stillframe::scenegraph

@@ -82,6 +82,12 @@ void draw(QPainter& painter, const QPen& pen, TransportIcon icon) {
         painter.drawLine(QPointF(20, y), QPointF(40, y));
       }
       return;
+    case TransportIcon::Effects:
+      outline();
+      painter.drawEllipse(QPointF(24, 24), 15, 15);
+      painter.setBrush(pen.color());
+      painter.drawPie(QRectF(9, 9, 30, 30), 90 * 16, 180 * 16);
+      return;
   }
 }
 

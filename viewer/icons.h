@@ -16,7 +16,8 @@ enum class TransportIcon {
   SplitRight,
   SplitBelow,
   Close,
-  Layers
+  Layers,
+  Effects
 };
 
 [[nodiscard]] QIcon transportIcon(TransportIcon icon);

@@ -98,6 +98,17 @@ void SceneWidget::setBackground(const scenegraph::Color& background) {
   }
 }
 
+void SceneWidget::setEffects(const scenegraph::ViewEffects& effects) {
+  if (effects == effects_) {
+    return;
+  }
+  effects_ = effects;
+  if (pipeline_ != nullptr) {
+    pipeline_->setPostChain(effects_.chain());
+  }
+  update();
+}
+
 QString SceneWidget::problem() const { return message_->isHidden() ? QString() : message_->text(); }
 
 void SceneWidget::initializeGL() {
@@ -122,6 +133,7 @@ void SceneWidget::paintGL() {
   if (pipeline_ == nullptr) {
     pipeline_ = std::make_unique<scenegraph::ViewPipeline>(
         scene_ == nullptr ? osg::ref_ptr<osg::Group>(new osg::Group) : osg::ref_ptr<osg::Group>(&scene_->root()));
+    pipeline_->setPostChain(effects_.chain());
   }
   const QSizeF size_px = QSizeF(size()) * devicePixelRatioF();
   walk();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scenegraph/camera/view_camera.h"
+#include "scenegraph/passes/view_effects.h"
 #include "scenegraph/pipeline/gl_debug.h"
 #include "scenegraph/pipeline/view_pipeline.h"
 #include "scenegraph/scene.h"
@@ -82,6 +83,8 @@ class SceneWidget : public QOpenGLWidget {
   /// False when there is no view of that name.
   bool showSavedView(const QString& name);
   void setBackground(const scenegraph::Color& background);
+  void setEffects(const scenegraph::ViewEffects& effects);
+  [[nodiscard]] const scenegraph::ViewEffects& effects() const noexcept { return effects_; }
 
   /// Frames drawn since the widget was made.
   [[nodiscard]] std::uint64_t framesDrawn() const noexcept { return frames_drawn_; }
@@ -164,6 +167,7 @@ class SceneWidget : public QOpenGLWidget {
   bool has_smooth_moves_ = true;
   bool glides_home_ = false;
   scenegraph::Color background_{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
+  scenegraph::ViewEffects effects_;
   tf::TimePoint time_;
   bool wants_framing_ = true;
   bool has_framed_data_ = false;

@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 
 #include "viewer/camera_bar.h"
+#include "viewer/effect_panel.h"
 #include "viewer/frame_picker.h"
 #include "viewer/icons.h"
 #include "viewer/layer_panel.h"
@@ -31,6 +32,9 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   layers_button_ = addButton(*bar, QStringLiteral("layers"), transportIcon(TransportIcon::Layers), tr("Layers"));
   layers_button_->setCheckable(true);
   layers_button_->setChecked(true);
+  effects_button_ = addButton(*bar, QStringLiteral("effects"), transportIcon(TransportIcon::Effects),
+                              tr("Effects: shading, tone mapping, anti-aliasing"));
+  effects_button_->setCheckable(true);
   auto* label = new QLabel(tr("Fixed frame"), bar);
   bar_layout->addSpacing(4);
   bar_layout->addWidget(label);
@@ -49,8 +53,12 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   layout->addWidget(bar);
 
   splitter_->setChildrenCollapsible(true);
-  layers_ = new LayerPanel(splitter_);
+  auto* side = new QSplitter(Qt::Vertical, splitter_);
+  layers_ = new LayerPanel(side);
   layers_->setObjectName(QStringLiteral("layerPanel"));
+  effects_ = new EffectPanel(side);
+  effects_->setObjectName(QStringLiteral("effectPanel"));
+  effects_->setVisible(false);
   view_ = new SceneWidget(splitter_);
   camera_bar_ = new CameraBar(*view_, bar);
   place_of_camera_bar->addWidget(camera_bar_);
@@ -59,7 +67,15 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   splitter_->setSizes({kLayerPanelWidth, 3 * kLayerPanelWidth});
   layout->addWidget(splitter_, 1);
 
-  connect(layers_button_, &QToolButton::toggled, layers_, &QWidget::setVisible);
+  const auto show_panels = [this, side] {
+    layers_->setVisible(layers_button_->isChecked());
+    effects_->setVisible(effects_button_->isChecked());
+    side->setVisible(layers_button_->isChecked() || effects_button_->isChecked());
+  };
+  connect(layers_button_, &QToolButton::toggled, this, show_panels);
+  connect(effects_button_, &QToolButton::toggled, this, show_panels);
+  connect(effects_, &EffectPanel::changed, view_, [this] { view_->setEffects(effects_->effects()); });
+  connect(effects_, &EffectPanel::refused, this, &ViewPanel::refused);
   connect(recenter, &QToolButton::clicked, view_, &SceneWidget::home);
   connect(split_right, &QToolButton::clicked, this, [this] { Q_EMIT splitRequested(Qt::Horizontal); });
   connect(split_below, &QToolButton::clicked, this, [this] { Q_EMIT splitRequested(Qt::Vertical); });
@@ -161,6 +177,8 @@ void ViewPanel::refreshFrames() {
 ViewState ViewPanel::state() const {
   ViewState state;
   state.shows_layers = layers_button_->isChecked();
+  state.shows_effects = effects_button_->isChecked();
+  state.effects = view_->effects();
   scenegraph::Scene* scene = view_->scene();
   if (scene == nullptr) {
     return state;
@@ -180,6 +198,9 @@ ViewState ViewPanel::state() const {
 
 void ViewPanel::setState(const ViewState& state) {
   layers_button_->setChecked(state.shows_layers);
+  effects_button_->setChecked(state.shows_effects);
+  effects_->setEffects(state.effects);
+  view_->setEffects(state.effects);
   scenegraph::Scene* scene = view_->scene();
   if (scene == nullptr) {
     return;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenegraph/camera/view_camera.h"
+#include "scenegraph/passes/view_effects.h"
 #include "scenegraph/scene.h"
 #include "viewer/layer_choices.h"
 
@@ -17,6 +18,7 @@ class QToolButton;
 namespace stillframe::viewer {
 
 class CameraBar;
+class EffectPanel;
 class FramePicker;
 class LayerPanel;
 class SceneWidget;
@@ -34,6 +36,8 @@ struct ViewState {
   bool has_smooth_moves = true;
   std::map<std::string, LayerState> layers;  ///< by topic
   bool shows_layers = true;
+  scenegraph::ViewEffects effects;  ///< toTexts() and fromTexts() for layouts
+  bool shows_effects = false;
 };
 
 /// A view: SceneWidget, tool bar and layer panel. Each has a Scene of its own: fixed frame, layers, settings, camera.
@@ -60,6 +64,7 @@ class ViewPanel : public QWidget {
   [[nodiscard]] FramePicker& framePicker() noexcept { return *picker_; }
   [[nodiscard]] CameraBar& cameraBar() noexcept { return *camera_bar_; }
   [[nodiscard]] LayerPanel& layerPanel() noexcept { return *layers_; }
+  [[nodiscard]] EffectPanel& effectPanel() noexcept { return *effects_; }
 
  Q_SIGNALS:
   void splitRequested(Qt::Orientation orientation);
@@ -75,8 +80,10 @@ class ViewPanel : public QWidget {
   FramePicker* picker_ = nullptr;
   CameraBar* camera_bar_ = nullptr;
   LayerPanel* layers_ = nullptr;
+  EffectPanel* effects_ = nullptr;
   QSplitter* splitter_ = nullptr;
   QToolButton* layers_button_ = nullptr;
+  QToolButton* effects_button_ = nullptr;
   LayerChoices choices_;
   std::vector<bool> is_choice_applied_;
 };

@@ -1,6 +1,7 @@
 #include "nodes/tf_axes/frame_labels.h"
 
 #include <filesystem>
+#include <osg/BlendFunc>
 #include <osg/Group>
 #include <osgText/Text>
 
@@ -36,6 +37,9 @@ osg::ref_ptr<osg::Node> FrameLabels::make(const std::string& name, double height
     state_ = new osg::StateSet;
     state_->setAttributeAndModes(scenegraph::makeProgram("label", shaders::k_label_vert, shaders::k_label_frag),
                                  osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+    // Its own blending would leave holes in the target's alpha, which says what is data.
+    state_->setAttribute(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA),
+                         osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
     state_->addUniform(new osg::Uniform("u_glyphs", 0));
   }
   osg::ref_ptr<osgText::Text> text = new osgText::Text;

@@ -6,6 +6,7 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
@@ -69,6 +70,21 @@ std::expected<void, std::string> writeExrFile(const Picture& picture, const std:
   add("B", picture.rgba.data() + 2, 4);
   add("A", picture.rgba.data() + 3, 4);
   add("Z", picture.depth_m.data(), 1);
+  if (!picture.normals.empty()) {
+    add("N.X", picture.normals.data(), 3);
+    add("N.Y", picture.normals.data() + 1, 3);
+    add("N.Z", picture.normals.data() + 2, 3);
+  }
+  if (!picture.layer_ids.empty()) {
+    header.channels().insert("id", Imf::Channel(Imf::UINT));
+    auto* base = reinterpret_cast<char*>(const_cast<std::uint32_t*>(picture.layer_ids.data()));  // NOLINT
+    buffer.insert("id", Imf::Slice(Imf::UINT, base, sizeof(std::uint32_t), width * sizeof(std::uint32_t)));
+    std::string names;
+    for (const std::string& name : picture.layer_names) {
+      names += name + "\n";
+    }
+    header.insert("layers", Imf::StringAttribute(names));
+  }
   errno = 0;
   try {
     Imf::OutputFile file(path.c_str(), header);

@@ -29,7 +29,8 @@ struct BytePicture {
 std::expected<void, Status> writePng(const BytePicture& picture, const std::filesystem::path& path);
 std::expected<void, Status> writePng(const Picture& picture, const std::filesystem::path& path);
 /// OpenEXR with 32-bit float channels R, G, B, A (scene-linear) and Z (metres along the view axis, +infinity where
-/// nothing was drawn), ZIP compressed.
+/// nothing was drawn), ZIP compressed. A picture that has them: N.X, N.Y and N.Z, and the whole number "id" of the
+/// layer, whose names stand one a line in the attribute "layers", from 1.
 std::expected<void, Status> writeExr(const Picture& picture, const std::filesystem::path& path);
 /// Any 8-bit PNG; "CannotRead" otherwise.
 [[nodiscard]] std::expected<BytePicture, Status> readPng(const std::filesystem::path& path);

@@ -12,7 +12,7 @@ namespace stillframe::scenegraph {
 /// "ssaa": the whole picture, passes and all, is drawn `samples` times, each moved by another part of a pixel, and
 /// averaged; everything is smooth at `samples` times the cost. Sizes in pixels stay as they are in all of them.
 struct AntialiasingSettings {
-  std::string mode = "msaa";
+  std::string mode = "ssaa";
   std::int64_t samples = 4;  ///< of msaa and ssaa
 };
 

@@ -15,7 +15,7 @@ struct SsaoSettings {
   double intensity = 1.0;        ///< 1 is that of the estimate
   std::int64_t samples = 16;     ///< places looked at for each pixel
   bool half_resolution = false;  ///< estimate for one of four pixels
-  bool smoothing = true;         ///< mean of 4 x 4 pixels of like depth, which share out their directions
+  bool smoothing = false;        ///< mean of 4 x 4 pixels of like depth, which share out their directions
 };
 
 [[nodiscard]] EffectType ssaoEffect();

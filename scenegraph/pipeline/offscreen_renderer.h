@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <expected>
 #include <memory>
 #include <osg/Group>
@@ -18,8 +19,11 @@ namespace stillframe::scenegraph {
 struct Picture {
   int width = 0;
   int height = 0;
-  std::vector<float> rgba;     ///< scene-linear, 4 a pixel; alpha is 1, since the background is opaque
-  std::vector<float> depth_m;  ///< metres along the view axis; +infinity where nothing was drawn
+  std::vector<float> rgba;                    ///< scene-linear, 4 a pixel; alpha is 1, since the background is opaque
+  std::vector<float> depth_m;                 ///< metres along the view axis; +infinity where nothing was drawn
+  std::vector<float> normals = {};            ///< on request: 3 a pixel, in the fixed frame; 0 where nothing was drawn
+  std::vector<std::uint32_t> layer_ids = {};  ///< on request: place in layer_names, from 1; 0 where nothing was drawn
+  std::vector<std::string> layer_names = {};  ///< of layer_ids
 };
 
 /// How large, on what, and through which passes.

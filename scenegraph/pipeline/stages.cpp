@@ -205,6 +205,7 @@ void Stages::addScene(osg::Group& root, const PostChain& chain) {
   scene_camera_->addChild(&root);
   group_->addChild(scene_camera_);
   if (samples_ > 1) {
+    state.setMode(GL_MULTISAMPLE, osg::StateAttribute::ON);
     addResolve();
   }
 }

@@ -27,7 +27,7 @@ class Stages {
   struct Options {
     int width_px = 0;
     int height_px = 0;
-    int max_samples = 1;    ///< of the driver; more are not asked for
+    int max_samples = 1;  ///< of the driver; more are not asked for
     unsigned context_id = 0;
     bool presents = false;  ///< ends with the sRGB picture in the viewer's framebuffer
   };

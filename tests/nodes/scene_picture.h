@@ -47,10 +47,10 @@ class ScenePictureTest : public testing::Test {
     return *(*slot)->layer;
   }
   scenegraph::BytePicture draw(std::int64_t time_ns, const scenegraph::CameraView& view, int width = 200,
-                               int height = 200) {
+                               int height = 200, const scenegraph::PostChain& post = {}) {
     scene_->update(tf::TimePoint{time_ns});
-    const auto picture =
-        renderer_->render(scene_->root(), view, {.width = width, .height = height, .background = {0, 0, 0, 1}});
+    const auto picture = renderer_->render(
+        scene_->root(), view, {.width = width, .height = height, .background = {0, 0, 0, 1}, .post = post});
     EXPECT_TRUE(picture) << picture.error().message;
     auto bytes = picture ? scenegraph::toBytes(*picture) : scenegraph::BytePicture{};
     if (const char* folder = std::getenv("STILLFRAME_PICTURES")) {

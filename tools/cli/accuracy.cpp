@@ -7,6 +7,7 @@
 
 #include "scenegraph/pipeline/offscreen_renderer.h"
 #include "tools/accuracy/points_accuracy.h"
+#include "tools/accuracy/post_accuracy.h"
 #include "tools/accuracy/tf_accuracy.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_session.h"
@@ -60,6 +61,18 @@ Result<AccuracyReport> reportOfPoints(const AccuracyOptions& options) {
   return std::move(measured->report);
 }
 
+Result<AccuracyReport> reportOfPost(const AccuracyOptions& /*options*/) {
+  auto renderer = scenegraph::OffscreenRenderer::create();
+  if (!renderer) {
+    return failure(renderer.error().message);
+  }
+  auto measured = accuracy::postAccuracy(**renderer);
+  if (!measured) {
+    return failure(measured.error().message);
+  }
+  return std::move(measured->report);
+}
+
 /// A subject is a line here and a file of tools/accuracy/.
 struct Subject {
   const char* name;
@@ -69,6 +82,7 @@ struct Subject {
 
 constexpr std::array kSubjects{
     Subject{"tf", "the ways of composing a chain of transforms", &reportOfTf},
+    Subject{"post", "the post passes: occlusion, eye-dome lighting, target formats, anti-aliasing", &reportOfPost},
     Subject{"points", "drawing fewer points, by each rasteriser, of FILE or of a sample", &reportOfPoints},
 };
 

@@ -59,25 +59,34 @@ Result<LayerArgument> parseLayer(std::string_view text) {
   if (colon == std::string_view::npos) {
     return layer;
   }
-  std::string_view rest = text.substr(colon + 1);
+  auto settings = parseSettings(quoted, text.substr(colon + 1));
+  if (!settings) {
+    return std::unexpected(settings.error());
+  }
+  layer.settings = std::move(*settings);
+  return layer;
+}
+
+Result<scenegraph::SettingTexts> parseSettings(const std::string& what, std::string_view text) {
+  scenegraph::SettingTexts settings;
   while (true) {
-    const auto length = keyLength(rest);
+    const auto length = keyLength(text);
     if (!length) {
-      return usageError(quoted + ": '" + std::string(rest) + "' is not key=value");
+      return usageError(what + ": '" + std::string(text) + "' is not key=value");
     }
-    const std::string key(rest.substr(0, *length));
-    rest.remove_prefix(*length + 1);
-    auto value = takeValue(rest);
+    const std::string key(text.substr(0, *length));
+    text.remove_prefix(*length + 1);
+    auto value = takeValue(text);
     if (!value) {
-      return usageError(quoted + ": a quote is not closed");
+      return usageError(what + ": a quote is not closed");
     }
-    if (!layer.settings.emplace(key, std::move(*value)).second) {
-      return usageError(quoted + " sets '" + key + "' twice");
+    if (!settings.emplace(key, std::move(*value)).second) {
+      return usageError(what + " sets '" + key + "' twice");
     }
-    if (rest.empty()) {
-      return layer;
+    if (text.empty()) {
+      return settings;
     }
-    rest.remove_prefix(1);
+    text.remove_prefix(1);
   }
 }
 

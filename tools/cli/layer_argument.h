@@ -18,4 +18,7 @@ struct LayerArgument {
 /// it is quoted: 'a,b' or "a,b"; within double quotes a backslash takes the next character as it is.
 [[nodiscard]] Result<LayerArgument> parseLayer(std::string_view text);
 
+/// "key=value,...", quoted as above. `what` names it in the error.
+[[nodiscard]] Result<scenegraph::SettingTexts> parseSettings(const std::string& what, std::string_view text);
+
 }  // namespace stillframe::cli

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "tools/cli/commands.h"
+#include "tools/cli/effect_arguments.h"
 #include "tools/cli/recording_options.h"
 
 namespace {
@@ -37,7 +39,10 @@ int run(int argc, char** argv) {
   add("accuracy", "Measure error against run time", addAccuracyCommand);
 
   try {
-    app.parse(argc, argv);
+    // CLI11 takes the words last first.
+    std::vector<std::string> words = EffectArguments::spelledOut({argv + 1, argv + argc});
+    std::ranges::reverse(words);
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
       return app.exit(error);  // --help and --version

@@ -1,10 +1,14 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "scenegraph/export/picture_io.h"
+#include "scenegraph/export/picture_normals.h"
 #include "scenegraph/pipeline/offscreen_renderer.h"
 #include "tools/cli/commands.h"
+#include "tools/cli/effect_arguments.h"
+#include "tools/cli/layer_ids.h"
 #include "tools/cli/layer_report.h"
 #include "tools/cli/scene_session.h"
 
@@ -12,11 +16,46 @@ namespace stillframe::cli {
 namespace {
 
 struct RenderCommandOptions {
-  explicit RenderCommandOptions(CLI::App& app) : view(app) {}
+  explicit RenderCommandOptions(CLI::App& app) : view(app), effects(app) {}
   ViewArguments view;
+  EffectArguments effects;
   std::string out;
+  std::string channels;
   bool is_json = false;
 };
+
+struct Channels {
+  bool normals = false;
+  bool ids = false;
+};
+
+Result<Channels> parseChannels(const std::string& text, bool is_exr) {
+  Channels channels;
+  if (!text.empty() && !is_exr) {
+    return usageError("--channels '" + text + "': only an .exr has channels besides its colours");
+  }
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string name = text.substr(begin, end - begin);
+    if (name != "normals" && name != "id") {
+      return usageError("--channels '" + name + "' is none of normals, id");
+    }
+    (name == "id" ? channels.ids : channels.normals) = true;
+    begin = end + 1;
+  }
+  return channels;
+}
+
+/// The effects that are on, with their settings.
+Json effectsJson(const scenegraph::ViewEffects& effects) {
+  Json json = Json::object();
+  for (const auto& type : scenegraph::effectTypes()) {
+    if (effects.isOn(type.name)) {
+      json[std::string(type.name)] = effects.settings(type.name);
+    }
+  }
+  return json;
+}
 
 Result<void> runRender(const RenderCommandOptions& options) {
   const std::filesystem::path out = options.out;
@@ -27,6 +66,15 @@ Result<void> runRender(const RenderCommandOptions& options) {
   if (!view) {
     return std::unexpected(view.error());
   }
+  const auto effects = options.effects.effects();
+  if (!effects) {
+    return std::unexpected(effects.error());
+  }
+  const bool is_exr = out.extension() == ".exr";
+  const auto channels = parseChannels(options.channels, is_exr);
+  if (!channels) {
+    return std::unexpected(channels.error());
+  }
   auto made = SceneSession::make(*view);
   if (!made) {
     return std::unexpected(made.error());
@@ -36,17 +84,26 @@ Result<void> runRender(const RenderCommandOptions& options) {
   if (!renderer) {
     return std::unexpected(fileError(options.out, renderer.error()));
   }
-  const auto picture = (*renderer)->render(session.scene().root(), session.camera(),
-                                           {view->size.width_px, view->size.height_px, view->background});
+  // An .exr is scene-linear, before the tone curve.
+  const scenegraph::RenderOptions render_options{view->size.width_px, view->size.height_px, view->background,
+                                                 is_exr ? effects->linearChain() : effects->chain()};
+  auto picture = (*renderer)->render(session.scene().root(), session.camera(), render_options);
   if (!picture) {
     return std::unexpected(fileError(options.out, picture.error()));
   }
-  const auto written =
-      out.extension() == ".png" ? scenegraph::writePng(*picture, out) : scenegraph::writeExr(*picture, out);
+  const scenegraph::FrameStatistics frame = (*renderer)->lastFrame();
+  if (channels->normals) {
+    picture->normals = scenegraph::normalsOf(*picture, session.camera());
+  }
+  if (channels->ids) {
+    if (const auto added = addLayerIds(**renderer, session, render_options, *picture); !added) {
+      return std::unexpected(fileError(options.out, added.error()));
+    }
+  }
+  const auto written = is_exr ? scenegraph::writeExr(*picture, out) : scenegraph::writePng(*picture, out);
   if (!written) {
     return std::unexpected(fileError(options.out, written.error()));
   }
-  const auto& frame = (*renderer)->lastFrame();
   const auto& dataset = session.scene().dataset();
   if (options.is_json) {
     const Json json{{"size", {view->size.width_px, view->size.height_px}},
@@ -54,6 +111,8 @@ Result<void> runRender(const RenderCommandOptions& options) {
                     {"fixed_frame", session.scene().fixedFrame()},
                     {"frame_ms", frame.frame_ms},
                     {"passes", frame.passes},
+                    {"effects", effectsJson(*effects)},
+                    {"samples", frame.samples},
                     {"layers", layersJson(session.scene())},
                     {"renderer", (*renderer)->context().info().renderer},
                     {"problems", problemsJson(dataset)}};
@@ -72,6 +131,10 @@ Result<void> runRender(const RenderCommandOptions& options) {
 Command addRenderCommand(CLI::App& app) {
   auto options = std::make_shared<RenderCommandOptions>(app);
   app.add_option("--out", options->out, "The picture: .png (8 bit) or .exr (scene-linear float, with Z)")->required();
+  app.add_option(
+         "--channels", options->channels,
+         "normals,id: of an .exr, besides R, G, B, A and Z: N.X, N.Y, N.Z in the fixed frame; the layer's number")
+      ->type_name("NAMES");
   app.add_flag("--json", options->is_json, "One JSON object on what was drawn");
   return [options] { return runRender(*options); };
 }

@@ -3,6 +3,7 @@
 // u_image times u_gain through a curve, as far as its alpha lets (tone_map.h).
 const int kAces = 1;
 const int kNeutral = 2;
+const float kAllData = 0.998;  // an alpha of 1 that was interpolated and rounded to a half float may be a little below
 
 uniform sampler2D u_image;
 uniform float u_gain;
@@ -35,6 +36,6 @@ void main() {
   vec4 color = sfColor(u_image, ivec2(gl_FragCoord.xy));
   vec3 light = color.rgb * u_gain;
   vec3 graded = u_curve == kAces ? acesLike(light) : u_curve == kNeutral ? pbrNeutral(light) : light;
-  // Not mix(): with an alpha of exactly 1 the data colour is to come out bit for bit.
-  gl_FragColor = sfFinite(vec4(color.a < 1.0 ? graded + (color.rgb - graded) * color.a : color.rgb, color.a));
+  // Not mix(): a data colour is to come out bit for bit.
+  gl_FragColor = sfFinite(vec4(color.a < kAllData ? graded + (color.rgb - graded) * color.a : color.rgb, color.a));
 }

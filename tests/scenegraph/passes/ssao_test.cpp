@@ -45,8 +45,9 @@ TEST_F(SsaoTest, DarkensACreaseAndNotTheWallsFarFromIt) {
   root_ = makeCorner(4.0F);
   for (const bool is_orthographic : {false, true}) {
     for (const bool is_half : {false, true}) {
-      const Picture shaded = draw(lookDown(5.0, 0.0, is_orthographic), kSize, kSize,
-                                  ssaoChain({.radius = 0.6, .half_resolution = is_half}));
+      const Picture shaded =
+          draw(lookDown(5.0, 0.0, is_orthographic), kSize, kSize,
+               ssaoChain({.radius = 0.6, .samples = 16, .half_resolution = is_half, .smoothing = true}));
       const float crease = std::min(red(shaded, kSize / 2, kSize / 2), red(shaded, kSize / 2 - 1, kSize / 2));
       EXPECT_LT(crease, 0.75F) << is_orthographic << is_half;
       EXPECT_GT(crease, 0.2F) << is_orthographic << is_half;
@@ -58,11 +59,12 @@ TEST_F(SsaoTest, DarkensACreaseAndNotTheWallsFarFromIt) {
 
 TEST_F(SsaoTest, IsTheSameAtEveryScale) {
   root_ = makeCorner(4.0F);
-  const Picture metres = draw(lookDown(5.0, 20.0, false), kSize, kSize, ssaoChain({.radius = 0.6}));
+  const Picture metres = draw(lookDown(5.0, 20.0, false), kSize, kSize, ssaoChain({.radius = 0.6, .smoothing = true}));
   for (const double scale : {1e-2, 1e3}) {
     const osg::ref_ptr<osg::Group> unit = makeCorner(static_cast<float>(4.0 * scale));
     root_ = unit;
-    const Picture scaled = draw(lookDown(5.0 * scale, 20.0, false), kSize, kSize, ssaoChain({.radius = 0.6 * scale}));
+    const Picture scaled =
+        draw(lookDown(5.0 * scale, 20.0, false), kSize, kSize, ssaoChain({.radius = 0.6 * scale, .smoothing = true}));
     EXPECT_LT(rmse(metres, scaled), 2e-3) << scale;
   }
 }

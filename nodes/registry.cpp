@@ -9,6 +9,7 @@
 #include "nodes/laser_scan/laser_scan_layer.h"
 #include "nodes/occupancy_grid/occupancy_grid_layer.h"
 #include "nodes/point_cloud/point_cloud_layer.h"
+#include "nodes/poses/poses_layer.h"
 #include "nodes/robot_model/robot_model_layer.h"
 #include "nodes/tf_axes/tf_axes_layer.h"
 #include "nodes/voxel_grid/voxel_grid_layer.h"
@@ -26,6 +27,7 @@ std::span<const scenegraph::LayerType> layerTypes() {
        &OccupancyGridLayer::takesOrphan},
       {"compressed_cloud", "Compressed cloud", CompressedPointCloud, &createCompressedCloudLayer},
       {"grid_map", "Grid map", GridMap, &GridMapLayer::create},
+      {"poses", "Poses", PosesInFrame, &PosesLayer::create},
       {"depth_image", "Depth image", Image, &DepthImageLayer::create},
       {"robot_model", "Robot", RobotDescription, &RobotModelLayer::create},
       {"voxel_grid", "Voxel grid", VoxelGrid, &VoxelGridLayer::create},

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "nodes/depth_image/depth_frame.h"
-#include "nodes/depth_image/join_job.h"
 #include "nodes/depth_image/topics_in_force.h"
+#include "nodes/join_job.h"
 #include "scenegraph/layer.h"
 
 namespace stillframe::nodes {

@@ -22,6 +22,15 @@ std::size_t LineArrays::byteSize() const {
          (styles.valid() ? styles->size() * sizeof(osg::Vec4) : 0U);
 }
 
+void LineArrays::releaseGlObjects() const {
+  for (const osg::Array* const array : {static_cast<const osg::Array*>(points), static_cast<const osg::Array*>(colors),
+                                        static_cast<const osg::Array*>(values)}) {
+    if (array != nullptr) {
+      array->releaseGLObjects();
+    }
+  }
+}
+
 LineBuilder::LineBuilder(const glm::dvec3& origin, Channel channel) : origin_(origin), channel_(channel) {
   (void)take();
 }

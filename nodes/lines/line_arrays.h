@@ -37,6 +37,8 @@ struct LineArrays {
   std::size_t out_of_reach = 0;  ///< points farther than LineBuilder::kReach from the origin: the same
 
   [[nodiscard]] std::size_t byteSize() const;
+  /// Frees what is on the GPU, in every context. GUI thread.
+  void releaseGlObjects() const;
 };
 
 /// Collects lines on any thread, one strip after the other.

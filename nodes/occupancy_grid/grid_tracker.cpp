@@ -93,22 +93,6 @@ scenegraph::LatestJob<GridSnapshot>::Result run(const Work& work) {
   return snapshot;
 }
 
-/// Entries of a topic at or before `time`.
-std::uint64_t countUntil(const ObjectStore& store, TopicId topic, tf::TimePoint time) {
-  std::size_t low = 0;
-  std::size_t high = store.entryCount(topic);
-  while (low < high) {
-    const std::size_t middle = low + (high - low) / 2;
-    const auto entry = store.at(topic, middle);
-    if (entry && entry->log_time <= time) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
-}
-
 }  // namespace
 
 std::string baseTopicOf(std::string_view updates_topic) {
@@ -152,7 +136,7 @@ bool GridTracker::update(tf::TimePoint time) {
   if (last && last->log_time > base->log_time) {
     // Updates between the two only ever become more: their number and the last one tell which they are.
     const std::uint64_t count =
-        countUntil(store, *updates_topic_, last->log_time) - countUntil(store, *updates_topic_, base->log_time);
+        store.countAtOrBefore(*updates_topic_, last->log_time) - store.countAtOrBefore(*updates_topic_, base->log_time);
     key.product += ":" + std::to_string(count) + ":" + std::to_string(last->sequence);
     work.until = last->log_time;
   }

@@ -6,6 +6,7 @@
 #include <osg/PrimitiveSet>
 
 #include "generated/stillframe_nodes/shaders.h"
+#include "nodes/axis_colors.h"
 #include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
@@ -20,6 +21,11 @@ struct Mesh {
   osg::ref_ptr<osg::Vec4ubArray> colors = new osg::Vec4ubArray(osg::Array::BIND_PER_VERTEX);
   osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
 };
+
+osg::Vec4ub toBytes(const scenegraph::Color& color) {
+  const auto byte = [](float value) { return static_cast<unsigned char>(std::lround(255.0F * value)); };
+  return {byte(color.r), byte(color.g), byte(color.b), byte(color.a)};
+}
 
 /// `axis` 0, 1 or 2; the other two follow cyclically, so that sides keep their winding.
 osg::Vec3 alongAxis(unsigned axis, double along, double u, double v) {
@@ -68,9 +74,9 @@ void addArm(Mesh& mesh, unsigned axis, double length, double radius, const osg::
 osg::ref_ptr<osg::Geometry> makeTriad(double length_m) {
   Mesh mesh;
   const double radius = length_m / 24.0;
-  addArm(mesh, 0, length_m, radius, {235, 52, 52, 255});
-  addArm(mesh, 1, length_m, radius, {52, 200, 68, 255});
-  addArm(mesh, 2, length_m, radius, {64, 110, 255, 255});
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    addArm(mesh, axis, length_m, radius, toBytes(kAxisColors[axis]));
+  }
   osg::ref_ptr<osg::Geometry> triad = scenegraph::makeGeometry();
   triad->setName("triad");
   triad->setVertexArray(mesh.vertices);

@@ -121,6 +121,15 @@ std::optional<Entry> ObjectStore::newestAtOrBefore(TopicId topic, tf::TimePoint 
   return after == entries.begin() ? std::nullopt : std::optional(*(after - 1));
 }
 
+std::size_t ObjectStore::countAtOrBefore(TopicId topic, tf::TimePoint t) const {
+  const std::shared_lock lock(mutex_);
+  if (topic >= topics_.size()) {
+    return 0;
+  }
+  const std::vector<Entry>& entries = topics_[topic].entries;
+  return static_cast<std::size_t>(firstAfter(entries, t) - entries.begin());
+}
+
 std::vector<Entry> ObjectStore::range(TopicId topic, std::optional<tf::TimePoint> after, tf::TimePoint upto) const {
   const std::shared_lock lock(mutex_);
   if (topic >= topics_.size()) {

@@ -74,6 +74,8 @@ class ObjectStore {
   [[nodiscard]] std::size_t entryCount(TopicId topic) const;
   /// Newest entry with log_time <= t; the last to arrive when several share it.
   [[nodiscard]] std::optional<Entry> newestAtOrBefore(TopicId topic, tf::TimePoint t) const;
+  /// How many entries have log_time <= t: the position of the first later one.
+  [[nodiscard]] std::size_t countAtOrBefore(TopicId topic, tf::TimePoint t) const;
   /// All entries in (after, upto], oldest first. `after` absent: from the beginning.
   [[nodiscard]] std::vector<Entry> range(TopicId topic, std::optional<tf::TimePoint> after, tf::TimePoint upto) const;
   /// Entry by position in time order; nullopt past the end.

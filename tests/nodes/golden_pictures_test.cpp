@@ -85,6 +85,18 @@ TEST_F(GoldenPicture, Grid) {
   EXPECT_EQ(countColor(picture, {92, 97, 105}), drawnPixels(picture));
 }
 
+TEST_F(GoldenPicture, PosesPathOdometryAndPolygon) {
+  add("grid");
+  add("/pose_array", {{"length", "0.7"}});
+  add("/path", {{"color_field", "time"}, {"line_width", "4"}});
+  add("/odometry", {{"shape", "arrows"}, {"length", "1"}});
+  add("/footprint", {{"fill", "true"}, {"color", "#ffffff"}});
+  const auto picture = drawRobot();
+  EXPECT_TRUE(matchesGolden(picture, "poses"));
+  EXPECT_THAT(countHue(picture, 0), AllOf(Ge(500), Le(1500)));
+  EXPECT_THAT(countHue(picture, 1), AllOf(Ge(200), Le(300)));
+}
+
 TEST_F(GoldenPicture, EverythingTogether) {
   add("grid");
   add("tf", {{"axis_length", "0.8"}, {"hidden_frames", "utm"}});

@@ -1,8 +1,10 @@
+#include <array>
 #include <cmath>
 
 #include "nodes/registry.h"
 #include "scenegraph/objects/compressed_point_cloud.h"
 #include "scenegraph/objects/laser_scan.h"
+#include "scenegraph/objects/poses.h"
 #include "scenegraph/objects/robot_description.h"
 #include "tests/nodes/grid_map_builder.h"
 #include "tests/nodes/images/image_builder.h"
@@ -167,6 +169,34 @@ void addEmptyVoxels(DatasetBuilder& builder, std::int64_t log_ns, const std::str
   builder.at(log_ns, VoxelBuilder(0, 3, 5).frame(frame).build());
 }
 
+/// By seed: an array, a path, a pose with covariance, a point, a polygon.
+void addPoses(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame, unsigned seed) {
+  using scenegraph::PosesKind;
+  Random random(seed);
+  scenegraph::PosesInFrame poses;
+  poses.frame_id = frame;
+  poses.kind =
+      std::array{PosesKind::Array, PosesKind::Path, PosesKind::Single, PosesKind::Point, PosesKind::Polygon}[seed % 5];
+  const bool is_one = poses.kind == PosesKind::Single || poses.kind == PosesKind::Point;
+  for (unsigned i = 0; i < (is_one ? 1 : 3 + seed % 4); ++i) {
+    poses.poses.push_back(random.transform(5));
+    poses.stamps.push_back({log_ns + i});
+  }
+  if (poses.kind == PosesKind::Single) {
+    poses.covariance.emplace();
+    for (std::size_t i = 0; i < 36; i += 7) {
+      (*poses.covariance)[i] = random.number(0.01, 0.2);
+    }
+  }
+  builder.at(log_ns, std::move(poses));
+}
+
+void addEmptyPoses(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame) {
+  scenegraph::PosesInFrame poses;
+  poses.frame_id = frame;
+  builder.at(log_ns, std::move(poses));
+}
+
 }  // namespace
 
 std::vector<LayerCase> layerCases() {
@@ -177,6 +207,7 @@ std::vector<LayerCase> layerCases() {
           {.type = "occupancy_grid", .add = addGrid, .addEmpty = addEmptyGrid},
           {.type = "compressed_cloud", .add = addCompressedCloud, .addEmpty = addEmptyCompressedCloud},
           {.type = "grid_map", .add = addMap, .addEmpty = addEmptyMap},
+          {.type = "poses", .add = addPoses, .addEmpty = addEmptyPoses},
           {.type = "depth_image", .add = addDepthImage, .addEmpty = addEmptyDepthImage},
           {.type = "robot_model", .add = addRobot, .addEmpty = addEmptyRobot},
           {.type = "voxel_grid", .add = addVoxels, .addEmpty = addEmptyVoxels}};

@@ -64,6 +64,10 @@ TEST_F(StoreWithTopic, AnswersNewestAtOrBefore) {
   EXPECT_EQ(store.newestAtOrBefore(topic, tf::TimePoint{20})->log_time.ns, 20);
   EXPECT_EQ(store.newestAtOrBefore(topic, tf::TimePoint{kMax})->log_time.ns, 30);
   EXPECT_FALSE(store.newestAtOrBefore(topic, tf::TimePoint{kMin}));
+  EXPECT_EQ(store.countAtOrBefore(topic, tf::TimePoint{9}), 0U);
+  EXPECT_EQ(store.countAtOrBefore(topic, tf::TimePoint{20}), 2U);
+  EXPECT_EQ(store.countAtOrBefore(topic, tf::TimePoint{kMax}), 3U);
+  EXPECT_EQ(store.countAtOrBefore(topic + 1, tf::TimePoint{kMax}), 0U);
 }
 
 TEST_F(StoreWithTopic, HoldsTheEndsOfInt64) {

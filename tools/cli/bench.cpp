@@ -168,6 +168,7 @@ Result<void> runBench(const BenchOptions& options) {
   benchGrids(results);
   benchRobot(results);
   benchVoxels(results);
+  benchPoses(results);
   benchTransforms(results);
   const unsigned cores = std::thread::hardware_concurrency();
   if (options.is_json) {

@@ -52,6 +52,8 @@ void benchGrids(std::vector<BenchResult>& results);
 void benchRobot(std::vector<BenchResult>& results);
 /// Voxel grids: conversion, ticks, and frames with the exposed voxels alone.
 void benchVoxels(std::vector<BenchResult>& results);
+/// Ticks of layers of poses and paths.
+void benchPoses(std::vector<BenchResult>& results);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
 

@@ -30,6 +30,10 @@ std::vector<std::unique_ptr<Topic>> makeTopics(const Stage& stage, const SampleO
   topics.push_back(makeMapUpdates(stage));
   topics.push_back(makeDepthCameraInfo(stage));
   topics.push_back(makeDepthImages(stage));
+  topics.push_back(makeOdometry(stage));
+  topics.push_back(makePath(stage));
+  topics.push_back(makeParticles(stage));
+  topics.push_back(makeFootprint(stage));
   topics.push_back(makeCompressedLidar(stage, options.lidar_points, "cloudini"));
   topics.push_back(makeCompressedLidar(stage, options.lidar_points, "draco"));
   topics.push_back(makeRobotDescription());

@@ -49,6 +49,10 @@ class Topic {
 [[nodiscard]] std::unique_ptr<Topic> makeRobotDescription();
 [[nodiscard]] std::unique_ptr<Topic> makeArmStates(const Stage& stage);
 [[nodiscard]] std::unique_ptr<Topic> makeVoxels(const Stage& stage);
+[[nodiscard]] std::unique_ptr<Topic> makeOdometry(const Stage& stage);
+[[nodiscard]] std::unique_ptr<Topic> makePath(const Stage& stage);
+[[nodiscard]] std::unique_ptr<Topic> makeParticles(const Stage& stage);
+[[nodiscard]] std::unique_ptr<Topic> makeFootprint(const Stage& stage);
 
 /// Where the sensors are mounted: /tf_static says the same.
 [[nodiscard]] tf::RigidTransform baseFromLidar();

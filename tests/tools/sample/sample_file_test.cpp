@@ -74,7 +74,11 @@ TEST_F(SampleFile, HoldsEveryTopicAtItsRate) {
                                                       {"/map", 1},
                                                       {"/map_updates", 3},
                                                       {"/robot_description", 1},
-                                                      {"/joint_states", 11}};
+                                                      {"/joint_states", 11},
+                                                      {"/odom", 11},
+                                                      {"/path", 3},
+                                                      {"/particles", 3},
+                                                      {"/footprint", 1}};
   EXPECT_EQ(counts, expected);
   EXPECT_EQ(statistics.end_time - statistics.start_time, 1'000'000'000U);
   std::uint64_t messages = 0;

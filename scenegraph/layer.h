@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenegraph/camera/picking.h"
 #include "scenegraph/executor.h"
 #include "scenegraph/frame_graph.h"
 #include "scenegraph/settings.h"
@@ -54,6 +55,9 @@ class Layer {
   virtual void attach(const LayerContext& context) = 0;
   /// Brings nodes, status and counts to `tick`; cheap when nothing it depends on has changed.
   virtual void update(const Tick& tick) = 0;
+  /// The picture that is about to be drawn, after update(): for what is arranged in it, such as names that must not
+  /// cover each other. Most layers have nothing to do.
+  virtual void setView(const CameraView& /*view*/, const PictureSize& /*size*/) {}
   /// Leaves the graph as if never attached. May be attached again.
   virtual void detach() = 0;
 

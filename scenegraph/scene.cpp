@@ -77,15 +77,26 @@ void Scene::setFixedFrame(std::optional<std::string> frame) {
   chosen_frame_ = frame && !frame->empty() ? std::move(frame) : std::nullopt;
 }
 
+void Scene::setPreferredFrame(std::optional<std::string> frame) {
+  preferred_frame_ = std::move(frame);
+  automatic_frame_revision_.reset();
+}
+
+const std::string& Scene::automaticFrame() const {
+  const tf::TransformBuffer& buffer = *dataset_->transforms();
+  if (const std::uint64_t revision = buffer.revision(); automatic_frame_revision_ != revision) {
+    automatic_frame_ =
+        preferred_frame_ && buffer.findFrame(*preferred_frame_) ? *preferred_frame_ : automaticFixedFrame(buffer);
+    automatic_frame_revision_ = revision;
+  }
+  return automatic_frame_;
+}
+
 std::string Scene::fixedFrame() const {
   if (chosen_frame_) {
     return *chosen_frame_;
   }
-  if (const std::uint64_t revision = dataset_->transforms()->revision(); automatic_frame_revision_ != revision) {
-    automatic_frame_ = automaticFixedFrame(*dataset_->transforms());
-    automatic_frame_revision_ = revision;
-  }
-  return automatic_frame_.empty() ? firstSourceFrame() : automatic_frame_;
+  return automaticFrame().empty() ? firstSourceFrame() : automaticFrame();
 }
 
 std::string Scene::firstSourceFrame() const {
@@ -230,6 +241,14 @@ bool Scene::noteSettings() {
 
 bool Scene::isPending() const {
   return std::ranges::any_of(layers_, [](const std::unique_ptr<LayerSlot>& slot) { return slot->layer->isPending(); });
+}
+
+void Scene::setView(const CameraView& view, const PictureSize& size) {
+  for (const auto& slot : layers_) {
+    if (slot->layer->isVisible()) {
+      slot->layer->setView(view, size);
+    }
+  }
 }
 
 osg::BoundingBoxd Scene::boundsInFixed() const {

@@ -40,6 +40,10 @@ class Scene {
 
   /// Frame chosen by hand, or nullopt to choose by itself: map, world, odom, ... else the root with the most frames.
   void setFixedFrame(std::optional<std::string> frame);
+  /// The frame that automatic choice takes before any other, while it exists: what was last chosen by hand elsewhere.
+  void setPreferredFrame(std::optional<std::string> frame);
+  /// What automatic choice gives, whether it is in use or not; "" without transforms.
+  [[nodiscard]] const std::string& automaticFrame() const;
   [[nodiscard]] bool isFixedFrameExplicit() const noexcept { return chosen_frame_.has_value(); }
   /// The frame in use. In a dataset without transforms the frame of the first visible layer's data, so that the data
   /// can be seen alone; "" when there is none either.
@@ -59,6 +63,8 @@ class Scene {
   bool update(tf::TimePoint time);
   [[nodiscard]] tf::TimePoint time() const noexcept { return time_; }
   [[nodiscard]] bool isPending() const;
+  /// What the next picture is drawn from, for the layers that arrange something in it; after update().
+  void setView(const CameraView& view, const PictureSize& size);
   /// Box of all visible layers in the fixed frame; the axes count, the reference grid does not.
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const;
   /// The same without stray points far off: what a first view should hold.
@@ -88,6 +94,7 @@ class Scene {
   std::vector<std::unique_ptr<LayerSlot>> layers_;
   std::uint64_t layers_revision_ = 0;
   std::optional<std::string> chosen_frame_;
+  std::optional<std::string> preferred_frame_;
   mutable std::string automatic_frame_;
   mutable std::optional<std::uint64_t> automatic_frame_revision_;
   tf::TimePoint time_;

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "tf/time.h"
 
 namespace stillframe::scenegraph {
 
@@ -34,6 +37,7 @@ struct Problem {
   std::string code;
   std::string message;
   std::uint64_t count = 1;
+  std::optional<tf::TimePoint> time = {};  ///< of the first of them, where one can go and see
 };
 
 }  // namespace stillframe::scenegraph

@@ -53,6 +53,15 @@ class EdgeCache {
   /// First and newest stamp; only when not empty.
   [[nodiscard]] TimePoint first() const noexcept { return {first_}; }
   [[nodiscard]] TimePoint last() const noexcept { return {last_}; }
+  /// Calls `visitor` with every sample, oldest first.
+  template <typename Visitor>
+  void visit(const Visitor& visitor) const {
+    for (const Block& block : blocks_) {
+      for (const Sample& sample : block.samples) {
+        visitor(sample);
+      }
+    }
+  }
   /// The first sample; only when not empty.
   [[nodiscard]] const Sample& front() const noexcept { return blocks_.front().samples.front(); }
   /// Heap bytes held, capacity included.

@@ -25,6 +25,16 @@ glm::dmat4 toMatrix(const RigidTransform& target_from_source) noexcept {
   return matrix;
 }
 
+glm::dvec3 rollPitchYaw(const glm::dquat& rotation) noexcept {
+  const glm::dmat3 r = glm::mat3_cast(rotation);  // r[column][row]
+  const double level = std::hypot(r[0][0], r[0][1]);
+  const double pitch = std::atan2(-r[0][2], level);
+  if (level < 1e-9) {
+    return {0.0, pitch, std::atan2(-r[1][0], r[1][1])};
+  }
+  return {std::atan2(r[1][2], r[2][2]), pitch, std::atan2(r[0][1], r[0][0])};
+}
+
 bool isFinite(const RigidTransform& transform) noexcept {
   return std::isfinite(transform.rotation.w) && std::isfinite(transform.rotation.x) &&
          std::isfinite(transform.rotation.y) && std::isfinite(transform.rotation.z) &&

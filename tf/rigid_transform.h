@@ -23,6 +23,9 @@ struct RigidTransform {
                                         const glm::dvec3& point_in_source) noexcept;
 /// Column-major homogeneous matrix, for glm and OSG.
 [[nodiscard]] glm::dmat4 toMatrix(const RigidTransform& target_from_source) noexcept;
+/// Roll, pitch and yaw in radians: about the fixed X, Y and Z axes in turn, as ROS has it. At a pitch of 90 degrees,
+/// where roll and yaw are one and the same turn, all of it is given as yaw.
+[[nodiscard]] glm::dvec3 rollPitchYaw(const glm::dquat& rotation) noexcept;
 [[nodiscard]] bool isFinite(const RigidTransform& transform) noexcept;
 
 }  // namespace stillframe::tf

@@ -246,6 +246,19 @@ std::optional<EdgeInfo> TransformBuffer::edge(FrameId child) const {
                   samples.first(),           samples.last(),           tree.isStatic(child)};
 }
 
+std::vector<StampedTransform> TransformBuffer::samples(FrameId child) const {
+  const std::shared_lock reader(impl_->gate);
+  std::vector<StampedTransform> samples;
+  if (impl_->tree.parent(child) != kNoFrame) {
+    const EdgeCache& edge = impl_->tree.samples(child);
+    samples.reserve(edge.size());
+    edge.visit([&](const EdgeCache::Sample& sample) {
+      samples.push_back({TimePoint{sample.stamp_ns}, sample.parent_from_child});
+    });
+  }
+  return samples;
+}
+
 std::optional<TimePoint> TransformBuffer::stampInForce(FrameId child, TimePoint time) const noexcept {
   const std::shared_lock reader(impl_->gate);
   return impl_->tree.stampInForce(child, time);

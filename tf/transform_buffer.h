@@ -54,6 +54,12 @@ struct EdgeInfo {
   bool is_static = false;
 };
 
+/// A sample as it lies in the buffer.
+struct StampedTransform {
+  TimePoint stamp;
+  RigidTransform parent_from_child;
+};
+
 /// What TransformBuffer::snapshot() works in; of no meaning outside it.
 struct SnapshotScratch {
   std::vector<const RigidTransform*> poses;
@@ -134,6 +140,8 @@ class TransformBuffer {
   [[nodiscard]] std::vector<FrameId> roots() const;
   /// The edge from `child` to its parent; nullopt for a root or an unknown frame.
   [[nodiscard]] std::optional<EdgeInfo> edge(FrameId child) const;
+  /// A copy of every sample of the edge above `child`, oldest first; empty for a root or an unknown frame.
+  [[nodiscard]] std::vector<StampedTransform> samples(FrameId child) const;
   /// Stamp of the sample in force at `time` on the edge above `child`.
   [[nodiscard]] std::optional<TimePoint> stampInForce(FrameId child, TimePoint time) const noexcept;
   /// Changes with every change of content: a view that has seen it needs no new tick.

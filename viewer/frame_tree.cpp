@@ -1,13 +1,22 @@
 #include "viewer/frame_tree.h"
 
+#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QLineEdit>
 #include <QLocale>
+#include <QRegularExpression>
+#include <QScopedValueRollback>
 #include <QSplitter>
 #include <QTimer>
+#include <QToolButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 #include <cmath>
+#include <utility>
+
+#include "viewer/frame_pose.h"
+#include "viewer/problem_list.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -16,7 +25,8 @@ constexpr int kFrame = 0;  // columns
 constexpr int kAge = 1;
 constexpr int kSamples = 2;
 constexpr int kRate = 3;
-constexpr int kColumns = 4;
+constexpr int kSpan = 4;
+constexpr int kColumns = 5;
 constexpr int kRefreshMs = 100;
 
 void setTextIfNew(QTreeWidgetItem& item, int column, const QString& text) {
@@ -24,6 +34,8 @@ void setTextIfNew(QTreeWidgetItem& item, int column, const QString& text) {
     item.setText(column, text);
   }
 }
+
+std::string nameOf(const QTreeWidgetItem& row) { return row.data(kFrame, Qt::UserRole).toString().toStdString(); }
 
 }  // namespace
 
@@ -44,13 +56,54 @@ QString durationText(double seconds) {
 FrameTree::FrameTree(QWidget* parent) : QWidget(parent) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(makeFilterRow());
   auto* splitter = new QSplitter(Qt::Vertical, this);
-  layout->addWidget(splitter);
+  layout->addWidget(splitter, 1);
+  makeTree(splitter);
+  problems_ = new ProblemList(splitter);
+  splitter->setStretchFactor(0, 4);
+  splitter->setStretchFactor(1, 1);
+  more_ = new QLabel(this);
+  more_->setVisible(false);
+  layout->addWidget(more_);
+  pose_ = new FramePose(this);
+  layout->addWidget(pose_);
 
-  tree_ = new QTreeWidget(splitter);
+  connect(problems_, &ProblemList::timeRequested, this, &FrameTree::timeRequested);
+  timer_ = new QTimer(this);
+  timer_->setSingleShot(true);
+  timer_->setInterval(kRefreshMs);
+  connect(timer_, &QTimer::timeout, this, &FrameTree::refreshNow);
+}
+
+QWidget* FrameTree::makeFilterRow() {
+  auto* row = new QWidget(this);
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(4, 2, 4, 2);
+  layout->setSpacing(2);
+  filter_ = new QLineEdit(row);
+  filter_->setObjectName(QStringLiteral("frameFilter"));
+  filter_->setPlaceholderText(tr("Filter (regular expression)"));
+  filter_->setClearButtonEnabled(true);
+  layout->addWidget(filter_, 1);
+  connect(filter_, &QLineEdit::textChanged, this, &FrameTree::applyFilter);
+  for (const bool visible : {true, false}) {
+    auto* button = new QToolButton(row);
+    button->setObjectName(visible ? QStringLiteral("showListed") : QStringLiteral("hideListed"));
+    button->setText(visible ? tr("All on") : tr("All off"));
+    button->setToolTip(visible ? tr("Draw every frame that is listed") : tr("Draw no frame that is listed"));
+    layout->addWidget(button);
+    connect(button, &QToolButton::clicked, this, [this, visible] { setAllListed(visible); });
+  }
+  return row;
+}
+
+void FrameTree::makeTree(QWidget* parent) {
+  tree_ = new QTreeWidget(parent);
   tree_->setObjectName(QStringLiteral("frames"));
   tree_->setColumnCount(kColumns);
-  tree_->setHeaderLabels({tr("Frame"), tr("Age"), tr("Count"), tr("Hz")});
+  tree_->setHeaderLabels({tr("Frame"), tr("Age"), tr("Count"), tr("Hz"), tr("Span")});
   tree_->setUniformRowHeights(true);
   tree_->setIndentation(10);
   tree_->setFrameShape(QFrame::NoFrame);
@@ -59,36 +112,25 @@ FrameTree::FrameTree(QWidget* parent) : QWidget(parent) {
   for (int column = kAge; column < kColumns; ++column) {
     tree_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
   }
-  connect(tree_, &QTreeWidget::itemClicked, this,
-          [this](QTreeWidgetItem* item) { Q_EMIT framePicked(item->text(kFrame)); });
-
-  problems_ = new QTreeWidget(splitter);
-  problems_->setObjectName(QStringLiteral("problems"));
-  problems_->setColumnCount(1);
-  problems_->setHeaderLabels({tr("Problems")});
-  problems_->setRootIsDecorated(false);
-  problems_->setWordWrap(true);
-  problems_->setFrameShape(QFrame::NoFrame);
-  problems_->setVisible(false);
-  splitter->setStretchFactor(0, 4);
-  splitter->setStretchFactor(1, 1);
-
-  more_ = new QLabel(this);
-  more_->setVisible(false);
-  layout->addWidget(more_);
-
-  timer_ = new QTimer(this);
-  timer_->setSingleShot(true);
-  timer_->setInterval(kRefreshMs);
-  connect(timer_, &QTimer::timeout, this, &FrameTree::refreshNow);
+  connect(tree_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* row) { onBox(row); });
+  connect(tree_, &QTreeWidget::itemPressed, this, [this] { has_toggled_ = false; });
+  connect(tree_, &QTreeWidget::itemClicked, this, [this](QTreeWidgetItem* row) {
+    if (!std::exchange(has_toggled_, false)) {
+      pose_->choose(std::nullopt, nameOf(*row));
+      Q_EMIT framePicked(QString::fromStdString(nameOf(*row)));
+    }
+  });
+  connect(tree_, &QTreeWidget::itemActivated, this,
+          [this](QTreeWidgetItem* row) { Q_EMIT frameActivated(QString::fromStdString(nameOf(*row))); });
 }
 
 void FrameTree::setDataset(std::shared_ptr<const scenegraph::Dataset> dataset) {
   dataset_ = std::move(dataset);
   tree_->clear();
-  problems_->clear();
   items_.clear();
   parents_.clear();
+  problems_->setDataset(dataset_);
+  pose_->setDataset(dataset_);
   refreshNow();
 }
 
@@ -111,7 +153,8 @@ void FrameTree::refreshNow() {
   }
   rebuild();
   showSamples();
-  showProblems();
+  problems_->refresh();
+  pose_->showAt(time_);
 }
 
 void FrameTree::showEvent(QShowEvent* event) {
@@ -139,6 +182,7 @@ void FrameTree::rebuild() {
   if (is_same) {
     return;
   }
+  const QScopedValueRollback filling(is_filling_, true);
   tree_->clear();
   items_.assign(count, nullptr);
   for (std::size_t id = 0; id < count; ++id) {
@@ -146,6 +190,7 @@ void FrameTree::rebuild() {
     const QString name = QString::fromStdString(names[id]);
     items_[id]->setText(kFrame, name);
     items_[id]->setData(kFrame, Qt::UserRole, name);
+    items_[id]->setCheckState(kFrame, hidden_.contains(names[id]) ? Qt::Unchecked : Qt::Checked);
     for (int column = kAge; column < kColumns; ++column) {
       items_[id]->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
     }
@@ -161,51 +206,113 @@ void FrameTree::rebuild() {
   parents_ = std::move(parents);
   more_->setVisible(names.size() > count);
   more_->setText(tr("and %1 more frames").arg(names.size() - count));
+  applyFilter();
 }
 
 void FrameTree::showSamples() {
-  const tf::TransformBuffer& buffer = *dataset_->transforms();
+  const QScopedValueRollback filling(is_filling_, true);
   for (std::size_t id = 0; id < items_.size(); ++id) {
-    QTreeWidgetItem& row = *items_[id];
-    const auto frame = static_cast<tf::FrameId>(id);
-    const auto edge = buffer.edge(frame);
-    if (!edge || edge->samples == 0) {
-      continue;
+    const auto edge = dataset_->transforms()->edge(static_cast<tf::FrameId>(id));
+    if (edge && edge->samples > 0) {
+      showSample(id, *edge);
+    } else {
+      items_[id]->setForeground(kFrame, matches_[id] ? QBrush() : palette().brush(QPalette::Disabled, QPalette::Text));
+      items_[id]->setToolTip(kFrame, tr("%1 is a root: it has no parent").arg(items_[id]->text(kFrame)));
     }
-    const auto in_force = buffer.stampInForce(frame, time_);
-    setTextIfNew(row, kAge,
-                 in_force ? (edge->is_static ? tr("static") : durationText(tf::secondsBetween(*in_force, time_)))
-                 : edge->is_static ? tr("static, later")
-                                   : tr("none yet"));
-    setTextIfNew(row, kSamples, QLocale().toString(static_cast<qulonglong>(edge->samples)));
-    const double span_s = tf::secondsBetween(edge->first, edge->last);
-    setTextIfNew(row, kRate,
-                 edge->samples > 1 && span_s > 0.0
-                     ? QString::number(static_cast<double>(edge->samples - 1) / span_s, 'f', 1)
-                     : QString());
-    const bool is_disabled = !in_force && !buffer.isStaticForAllTime();
-    row.setForeground(kFrame, is_disabled ? palette().brush(QPalette::Disabled, QPalette::Text) : QBrush());
-    row.setToolTip(kFrame, tr("%1 in %2, samples from %3 to %4 ns")
-                               .arg(QString::fromStdString(edge->child), QString::fromStdString(edge->parent))
-                               .arg(edge->first.ns)
-                               .arg(edge->last.ns));
   }
 }
 
-void FrameTree::showProblems() {
-  const auto problems = dataset_->problems();
-  problems_->setVisible(!problems.empty());
-  problems_->setHeaderLabels({tr("Problems (%1)").arg(problems.size())});
-  for (int i = 0; i < static_cast<int>(problems.size()); ++i) {
-    const scenegraph::Problem& problem = problems[static_cast<std::size_t>(i)];
-    if (i == problems_->topLevelItemCount()) {
-      problems_->addTopLevelItem(new QTreeWidgetItem);
-    }
-    const QString times = problem.count > 1 ? tr(" (%1 times)").arg(problem.count) : QString();
-    const QString text = QString::fromStdString(problem.code + ": " + problem.message) + times;
-    setTextIfNew(*problems_->topLevelItem(i), 0, text);
-    problems_->topLevelItem(i)->setToolTip(0, text);
+void FrameTree::showSample(std::size_t id, const tf::EdgeInfo& edge) {
+  const tf::TransformBuffer& buffer = *dataset_->transforms();
+  QTreeWidgetItem& row = *items_[id];
+  const auto in_force = buffer.stampInForce(static_cast<tf::FrameId>(id), time_);
+  setTextIfNew(row, kAge,
+               in_force         ? (edge.is_static ? tr("static") : durationText(tf::secondsBetween(*in_force, time_)))
+               : edge.is_static ? tr("static, later")
+                                : tr("none yet"));
+  setTextIfNew(row, kSamples, QLocale().toString(static_cast<qulonglong>(edge.samples)));
+  const double span_s = tf::secondsBetween(edge.first, edge.last);
+  const bool has_span = edge.samples > 1 && span_s > 0.0;
+  setTextIfNew(row, kRate,
+               has_span ? QString::number(static_cast<double>(edge.samples - 1) / span_s, 'f', 1) : QString());
+  setTextIfNew(row, kSpan, has_span ? durationText(span_s) : QString());
+  const bool is_dimmed = (!in_force && !buffer.isStaticForAllTime()) || !matches_[id];
+  row.setForeground(kFrame, is_dimmed ? palette().brush(QPalette::Disabled, QPalette::Text) : QBrush());
+  row.setToolTip(kFrame, tr("%1 in %2, samples from %3 to %4 ns")
+                             .arg(QString::fromStdString(edge.child), QString::fromStdString(edge.parent))
+                             .arg(edge.first.ns)
+                             .arg(edge.last.ns));
+}
+
+/// Rows that match, and those above them, so that one sees where they hang.
+void FrameTree::applyFilter() {
+  const QRegularExpression pattern(filter_->text(), QRegularExpression::CaseInsensitiveOption);
+  QPalette colors;
+  if (!pattern.isValid()) {
+    colors.setColor(QPalette::Text, QColor(0xe5, 0x53, 0x4b));
   }
+  filter_->setPalette(colors);
+  filter_->setToolTip(pattern.isValid() ? QString() : pattern.errorString());
+  matches_.assign(items_.size(), true);
+  std::vector<bool> listed(items_.size(), true);
+  if (pattern.isValid() && !filter_->text().isEmpty()) {
+    listed.assign(items_.size(), false);
+    for (std::size_t id = 0; id < items_.size(); ++id) {
+      matches_[id] = pattern.match(items_[id]->text(kFrame)).hasMatch();
+      for (std::size_t above = id; matches_[id] && above < items_.size() && !listed[above]; above = parents_[above]) {
+        listed[above] = true;
+      }
+    }
+  }
+  for (std::size_t id = 0; id < items_.size(); ++id) {
+    items_[id]->setHidden(!listed[id]);
+  }
+  if (dataset_ != nullptr) {
+    showSamples();
+  }
+}
+
+void FrameTree::setHiddenFrames(const Names& hidden) {
+  if (hidden == hidden_) {
+    return;
+  }
+  hidden_ = hidden;
+  const QScopedValueRollback filling(is_filling_, true);
+  for (QTreeWidgetItem* row : items_) {
+    const Qt::CheckState state = hidden_.contains(nameOf(*row)) ? Qt::Unchecked : Qt::Checked;
+    if (row->checkState(kFrame) != state) {
+      row->setCheckState(kFrame, state);
+    }
+  }
+}
+
+void FrameTree::onBox(QTreeWidgetItem* row) {
+  if (is_filling_) {
+    return;
+  }
+  has_toggled_ = true;
+  if (row->checkState(kFrame) == Qt::Checked) {
+    hidden_.erase(nameOf(*row));
+  } else {
+    hidden_.insert(nameOf(*row));
+  }
+  Q_EMIT hiddenFramesEdited(hidden_);
+}
+
+void FrameTree::setAllListed(bool visible) {
+  Names hidden = hidden_;
+  for (std::size_t id = 0; id < items_.size(); ++id) {
+    if (!matches_[id]) {
+      continue;
+    }
+    if (visible) {
+      hidden.erase(nameOf(*items_[id]));
+    } else {
+      hidden.insert(nameOf(*items_[id]));
+    }
+  }
+  setHiddenFrames(hidden);
+  Q_EMIT hiddenFramesEdited(hidden_);
 }
 
 }  // namespace stillframe::viewer

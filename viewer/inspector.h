@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scenegraph/camera/follow.h"
 #include "scenegraph/status.h"
 #include "viewer/dataset_loader.h"
 #include "viewer/layer_choices.h"
@@ -17,6 +18,9 @@ struct InspectorOptions {
   std::vector<std::filesystem::path> files = {};  ///< opened at once; none: an empty window that waits for a drop
   std::optional<std::string> time = {};           ///< integer ns, "+SECONDS", "start" or "end"; absent: start
   std::optional<std::string> fixed_frame = {};    ///< absent: chosen automatically
+  scenegraph::CameraKind camera = scenegraph::CameraKind::Orbit;
+  std::optional<std::string> display_frame = {};  ///< absent: the fixed frame
+  scenegraph::FollowMode follow = scenegraph::FollowMode::Off;
   LayerChoices layers = {};
   int views = 1;
   int width = 1280;  ///< of the window

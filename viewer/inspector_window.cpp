@@ -1,7 +1,7 @@
 #include "viewer/inspector_window.h"
 
 #include <QAction>
-#include <QCoreApplication>
+#include <QApplication>
 #include <QDebug>
 #include <QDockWidget>
 #include <QDragEnterEvent>
@@ -26,7 +26,7 @@ namespace stillframe::viewer {
 namespace {
 
 constexpr int kProgressSteps = 1000;
-constexpr int kFrameTreeWidth = 310;
+constexpr int kFrameTreeWidth = 370;
 
 std::vector<std::filesystem::path> localFiles(const QMimeData& data) {
   std::vector<std::filesystem::path> files;
@@ -91,11 +91,7 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   });
   connect(time_bar_, &TimeBar::refused, this,
           [this](const QString& message) { messages_->showMessage(scenegraph::StatusLevel::Warn, message); });
-  connect(frame_tree_, &FrameTree::framePicked, this, [this](const QString& frame) {
-    for (ViewPanel* panel : views_) {
-      panel->view().frameOrigin(frame.toStdString());
-    }
-  });
+  connectFrames();
 
   loader_ = new DatasetLoader(std::move(opener), this);
   connect(loader_, &DatasetLoader::opened, this, &InspectorWindow::onOpened);
@@ -113,6 +109,34 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   } else {
     openFiles(options_.files);
   }
+}
+
+void InspectorWindow::connectFrames() {
+  connect(frame_tree_, &FrameTree::framePicked, this, [this](const QString& frame) {
+    SceneWidget& view = activeView().view();
+    view.setSelection(Selection{frame.toStdString()});
+    view.frameOrigin(frame.toStdString());
+  });
+  connect(frame_tree_, &FrameTree::frameActivated, this, [this](const QString& frame) {
+    SceneWidget& view = activeView().view();
+    view.setSelection(Selection{frame.toStdString()});
+    view.frameSelection();
+  });
+  connect(frame_tree_, &FrameTree::hiddenFramesEdited, this,
+          [this](const FrameTree::Names& hidden) { activeView().setHiddenFrames(hidden); });
+  connect(frame_tree_, &FrameTree::timeRequested, time_bar_, &TimeBar::setTime);
+  connect(qApp, &QApplication::focusChanged, this, [this](QWidget*, QWidget* now) {
+    for (ViewPanel* panel : views_) {
+      if (now != nullptr && panel->isAncestorOf(now)) {
+        setActiveView(*panel);
+      }
+    }
+  });
+}
+
+void InspectorWindow::setActiveView(ViewPanel& panel) {
+  active_view_ = &panel;
+  frame_tree_->setHiddenFrames(panel.hiddenFrames());
 }
 
 InspectorWindow::~InspectorWindow() {
@@ -170,7 +194,16 @@ void InspectorWindow::openFiles(std::vector<std::filesystem::path> files) {
 
 ViewPanel& InspectorWindow::addView(ViewPanel* like, Qt::Orientation orientation) {
   auto* panel = new ViewPanel;
+  panel->setFrameMemory(frame_memory_);
   views_.push_back(panel);
+  if (active_view_ == nullptr) {
+    active_view_ = panel;
+  }
+  connect(&panel->view(), &SceneWidget::sceneUpdated, this, [this, panel] {
+    if (panel == active_view_) {
+      frame_tree_->setHiddenFrames(panel->hiddenFrames());
+    }
+  });
   connect(panel, &ViewPanel::splitRequested, this, [this, panel](Qt::Orientation wanted) { addView(panel, wanted); });
   connect(panel, &ViewPanel::closeRequested, this, [this, panel] { closeView(*panel); });
   connect(panel, &ViewPanel::refused, this,
@@ -208,6 +241,9 @@ void InspectorWindow::closeView(ViewPanel& panel) {
     return;  // the window keeps one
   }
   std::erase(views_, &panel);
+  if (active_view_ == &panel) {
+    setActiveView(*views_.front());
+  }
   QWidget* place = panel.parentWidget();
   panel.hide();
   panel.setParent(nullptr);
@@ -230,6 +266,11 @@ void InspectorWindow::fillView(ViewPanel& panel) {
     panel.view().setFixedFrame(options_.fixed_frame);
   }
   panel.view().setTime(time_bar_->time());
+  panel.view().setCameraKind(options_.camera);
+  if (options_.display_frame) {
+    panel.view().setDisplayFrame(options_.display_frame);
+    panel.view().setFollow(options_.follow);
+  }
 }
 
 void InspectorWindow::onOpened(const std::shared_ptr<scenegraph::Dataset>& dataset) {

@@ -7,6 +7,7 @@
 
 #include "scenegraph/executor.h"
 #include "viewer/dataset_loader.h"
+#include "viewer/frame_memory.h"
 #include "viewer/inspector.h"
 #include "viewer/time_text.h"
 #include "viewer/view_panel.h"
@@ -38,6 +39,8 @@ class InspectorWindow : public QMainWindow {
   void closeView(ViewPanel& panel);
 
   [[nodiscard]] const std::vector<ViewPanel*>& views() const noexcept { return views_; }
+  /// The view that had the focus last: what the frames panel is about.
+  [[nodiscard]] ViewPanel& activeView() noexcept { return *active_view_; }
   [[nodiscard]] TimeBar& timeBar() noexcept { return *time_bar_; }
   [[nodiscard]] FrameTree& frameTree() noexcept { return *frame_tree_; }
   [[nodiscard]] MessageBar& messageBar() noexcept { return *messages_; }
@@ -63,6 +66,8 @@ class InspectorWindow : public QMainWindow {
   void onFailed(const scenegraph::Status& status);
   void takeRange();
   void fillView(ViewPanel& panel);
+  void connectFrames();
+  void setActiveView(ViewPanel& panel);
   void takeScreenshotWhenComplete();
   /// Ends the program with exit code 1: nobody is there to read a message bar.
   void failUnattended(const QString& message);
@@ -73,7 +78,9 @@ class InspectorWindow : public QMainWindow {
   DatasetLoader* loader_ = nullptr;
   bool is_loading_ = false;
   bool is_time_untouched_ = true;
+  FrameMemory frame_memory_;  // before the views, which use it
   std::vector<ViewPanel*> views_;
+  ViewPanel* active_view_ = nullptr;  // one of views_
 
   MessageBar* messages_ = nullptr;
   QSplitter* view_splitter_ = nullptr;

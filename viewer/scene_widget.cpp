@@ -137,7 +137,11 @@ void SceneWidget::paintGL() {
   }
   const QSizeF size_px = QSizeF(size()) * devicePixelRatioF();
   walk();
-  pipeline_->setView(shownView());
+  const scenegraph::CameraView view = shownView();
+  if (scene_ != nullptr) {
+    scene_->setView(view, {size_px.width(), size_px.height()});
+  }
+  pipeline_->setView(view);
   pipeline_->setBackground(background_);
   const auto drawn = pipeline_->render(defaultFramebufferObject(), qRound(size_px.width()), qRound(size_px.height()));
   showProblem(drawn ? QString()

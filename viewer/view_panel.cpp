@@ -6,8 +6,10 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "nodes/tf_axes/frame_list.h"
 #include "viewer/camera_bar.h"
 #include "viewer/effect_panel.h"
+#include "viewer/frame_memory.h"
 #include "viewer/frame_picker.h"
 #include "viewer/icons.h"
 #include "viewer/layer_panel.h"
@@ -80,11 +82,7 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   connect(split_right, &QToolButton::clicked, this, [this] { Q_EMIT splitRequested(Qt::Horizontal); });
   connect(split_below, &QToolButton::clicked, this, [this] { Q_EMIT splitRequested(Qt::Vertical); });
   connect(close, &QToolButton::clicked, this, &ViewPanel::closeRequested);
-  connect(picker_, &FramePicker::picked, this, [this](const std::optional<std::string>& frame) {
-    view_->setFixedFrame(frame);
-    refreshFrames();
-    view_->setFocus();
-  });
+  connect(picker_, &FramePicker::picked, this, &ViewPanel::pickFixedFrame);
   connect(layers_, &LayerPanel::changed, view_, [this] { view_->requestTick(); });
   connect(layers_, &LayerPanel::refused, this, &ViewPanel::refused);
   connect(view_, &SceneWidget::sceneUpdated, this, [this] {
@@ -112,6 +110,9 @@ void ViewPanel::setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegr
                            const LayerChoices& choices) {
   layers_->setScene(nullptr);
   view_->setDataset(std::move(dataset), executor);
+  if (view_->scene() != nullptr && memory_ != nullptr) {
+    view_->scene()->setPreferredFrame(memory_->recall(view_->scene()->dataset().name()));
+  }
   choices_ = choices;
   is_choice_applied_.assign(choices_.layers.size(), false);
   addWantedLayers();
@@ -170,8 +171,48 @@ void ViewPanel::refreshFrames() {
     picker_->setFrames(buffer.frames());
   }
   picker_->setCurrent(scene->isFixedFrameExplicit() ? std::optional(scene->fixedFrame()) : std::nullopt,
-                      scenegraph::automaticFixedFrame(buffer));
+                      scene->automaticFrame());
   camera_bar_->refresh();
+}
+
+/// By hand: other views of this source begin with it from now on.
+void ViewPanel::pickFixedFrame(const std::optional<std::string>& frame) {
+  scenegraph::Scene* scene = view_->scene();
+  if (scene != nullptr) {
+    if (memory_ != nullptr) {
+      memory_->remember(scene->dataset().name(), frame);
+    }
+    if (!frame) {
+      scene->setPreferredFrame(std::nullopt);  // automatic was asked for, and means what it says
+    }
+  }
+  view_->setFixedFrame(frame);
+  refreshFrames();
+  view_->setFocus();
+}
+
+ViewPanel::FrameNames ViewPanel::hiddenFrames() const {
+  scenegraph::Scene* scene = view_->scene();
+  const scenegraph::LayerSlot* axes = scene == nullptr ? nullptr : scene->findLayer("tf");
+  if (axes == nullptr) {
+    return {};
+  }
+  const scenegraph::SettingTexts settings = axes->layer->settings();
+  const auto found = settings.find("hidden_frames");
+  return found == settings.end() ? FrameNames() : nodes::splitFrameNames(found->second);
+}
+
+void ViewPanel::setHiddenFrames(const FrameNames& hidden) {
+  scenegraph::Scene* scene = view_->scene();
+  scenegraph::LayerSlot* axes = scene == nullptr ? nullptr : scene->findLayer("tf");
+  if (axes == nullptr) {
+    return;
+  }
+  if (const auto applied = axes->layer->applySettings({{"hidden_frames", nodes::joinFrameNames(hidden)}}); !applied) {
+    Q_EMIT refused(QString::fromStdString("tf: " + applied.error().message));
+  }
+  layers_->refresh();
+  view_->requestTick();
 }
 
 ViewState ViewPanel::state() const {

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ namespace stillframe::viewer {
 
 class CameraBar;
 class EffectPanel;
+class FrameMemory;
 class FramePicker;
 class LayerPanel;
 class SceneWidget;
@@ -52,10 +54,17 @@ class ViewPanel : public QWidget {
   /// Shows `dataset` with the layers of `choices`, in the state of a fresh view. `executor` must outlive the panel.
   void setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegraph::Executor& executor,
                   const LayerChoices& choices);
+  /// What the fixed frame of a new dataset is taken from, and where a choice by hand goes; must outlive the panel.
+  void setFrameMemory(FrameMemory& memory) { memory_ = &memory; }
   /// The dataset has more topics, frames or messages.
   void takeGrowth();
   /// Looks at all data again, unless the camera was moved by hand.
   void homeUnlessTouched();
+
+  /// Frames that the axes leave out.
+  using FrameNames = std::set<std::string, std::less<>>;
+  [[nodiscard]] FrameNames hiddenFrames() const;
+  void setHiddenFrames(const FrameNames& hidden);
 
   [[nodiscard]] ViewState state() const;
   void setState(const ViewState& state);
@@ -75,6 +84,7 @@ class ViewPanel : public QWidget {
   QToolButton* addButton(QWidget& bar, const QString& name, const QIcon& icon, const QString& tip);
   void addWantedLayers();
   void refreshFrames();
+  void pickFixedFrame(const std::optional<std::string>& frame);
 
   SceneWidget* view_ = nullptr;
   FramePicker* picker_ = nullptr;
@@ -84,6 +94,7 @@ class ViewPanel : public QWidget {
   QSplitter* splitter_ = nullptr;
   QToolButton* layers_button_ = nullptr;
   QToolButton* effects_button_ = nullptr;
+  FrameMemory* memory_ = nullptr;
   LayerChoices choices_;
   std::vector<bool> is_choice_applied_;
 };

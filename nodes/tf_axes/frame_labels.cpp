@@ -1,7 +1,9 @@
 #include "nodes/tf_axes/frame_labels.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <osg/BlendFunc>
+#include <osg/BufferObject>
 #include <osg/Group>
 #include <osgText/Text>
 
@@ -26,6 +28,18 @@ osg::ref_ptr<osgText::Font> findFont() {
   return nullptr;
 }
 
+/// The driver is told that names change; it says so itself otherwise.
+void expectChanges(osgText::Text& text) {
+  if (osg::VertexBufferObject* const vertices = text.getCoords()->getVertexBufferObject()) {
+    vertices->setUsage(GL_DYNAMIC_DRAW);
+  }
+  for (const auto& [texture, quads] : text.getTextureGlyphQuadMap()) {
+    if (quads._primitives.valid() && quads._primitives->getElementBufferObject() != nullptr) {
+      quads._primitives->getElementBufferObject()->setUsage(GL_DYNAMIC_DRAW);
+    }
+  }
+}
+
 }  // namespace
 
 osg::ref_ptr<osg::Node> FrameLabels::make(const std::string& name, double height_px, const scenegraph::Color& color) {
@@ -41,6 +55,9 @@ osg::ref_ptr<osg::Node> FrameLabels::make(const std::string& name, double height
     state_->setAttribute(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA),
                          osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
     state_->addUniform(new osg::Uniform("u_glyphs", 0));
+    // Over everything else: half a name is none.
+    state_->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+    state_->setRenderBinDetails(100, "DepthSortedBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
   }
   osg::ref_ptr<osgText::Text> text = new osgText::Text;
   text->setName("label");
@@ -56,12 +73,29 @@ osg::ref_ptr<osg::Node> FrameLabels::make(const std::string& name, double height
   text->setAlignment(osgText::TextBase::LEFT_BOTTOM);
   text->setText(name, osgText::String::ENCODING_UTF8);
   text->setColor(toOsg(color));
+  expectChanges(*text);
   // Its true size depends on the camera: a bound from the text would cull it wrongly.
   text->setCullingActive(false);
   osg::ref_ptr<osg::Group> label = new osg::Group;
   label->setStateSet(state_);
   label->addChild(text);
   return label;
+}
+
+void FrameLabels::setText(osg::Node& label, const std::string& text, const scenegraph::Color& color) {
+  osg::Group* const group = label.asGroup();
+  auto* const shown = group == nullptr ? nullptr : dynamic_cast<osgText::Text*>(group->getChild(0));
+  if (shown == nullptr) {
+    return;
+  }
+  osgText::String wanted;
+  wanted.set(text, osgText::String::ENCODING_UTF8);
+  if (!std::equal(wanted.begin(), wanted.end(), shown->getText().begin(), shown->getText().end())) {
+    shown->setText(wanted);
+  }
+  if (shown->getColor() != toOsg(color)) {
+    shown->setColor(toOsg(color));
+  }
 }
 
 }  // namespace stillframe::nodes

@@ -15,6 +15,8 @@ namespace stillframe::nodes {
 class FrameLabels {
  public:
   [[nodiscard]] osg::ref_ptr<osg::Node> make(const std::string& name, double height_px, const scenegraph::Color& color);
+  /// Changes what a label says; its lines, parted by newlines, grow upwards. Costs nothing when it says so already.
+  static void setText(osg::Node& label, const std::string& text, const scenegraph::Color& color);
 
  private:
   bool has_looked_ = false;

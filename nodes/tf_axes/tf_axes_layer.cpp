@@ -1,11 +1,14 @@
 #include "nodes/tf_axes/tf_axes_layer.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <ranges>
 #include <regex>
-#include <set>
 
 #include "nodes/osg_math.h"
+#include "nodes/tf_axes/frame_list.h"
+#include "nodes/tf_axes/label_layout.h"
 #include "nodes/tf_axes/triad.h"
 #include "scenegraph/placement.h"
 
@@ -51,9 +54,16 @@ const SettingsTable<TfAxesLayer::Settings>& table() {
        &S::frame_filter},
       {{.key = "hidden_frames",
         .label = "Hidden frames",
-        .help = "Names of frames that are not drawn, separated by commas.",
+        .help = "Names of frames that are not drawn, separated by commas; a comma in a name has a backslash before it.",
         .kind = SettingKind::Text},
        &S::hidden_frames},
+      {{.key = "stale_after",
+        .label = "Stale after (s)",
+        .help = "A moving frame whose sample is older than this is dimmed and its age is written; 0: never.",
+        .kind = SettingKind::Double,
+        .minimum = 0,
+        .maximum = 1e9},
+       &S::stale_after_s},
       {{.key = "max_frames",
         .label = "Most frames",
         .help = "How many frames are drawn at most, the first to appear; filter them to see others.",
@@ -68,20 +78,6 @@ const SettingsTable<TfAxesLayer::Settings>& table() {
   return kTable;
 }
 
-std::set<std::string, std::less<>> splitNames(const std::string& list) {
-  std::set<std::string, std::less<>> names;
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    const std::size_t first = list.find_first_not_of(' ', begin);
-    const std::size_t last = list.find_last_not_of(' ', end == 0 ? 0 : end - 1);
-    if (first < end && last != std::string::npos && last >= first) {
-      names.insert(list.substr(first, last - first + 1));
-    }
-    begin = end + 1;
-  }
-  return names;
-}
-
 /// Whether a pattern occurs in a name; a search too complex for the library finds nothing.
 bool occursIn(const std::string& name, const std::regex& pattern) {
   try {
@@ -89,6 +85,25 @@ bool occursIn(const std::string& name, const std::regex& pattern) {
   } catch (const std::regex_error&) {
     return false;
   }
+}
+
+/// "3.2 s", "45 s", "12 min", "5 h": short, and steady while the time goes on.
+std::string ageText(double seconds) {
+  std::array<char, 32> text{};
+  if (seconds < 10.0) {
+    std::snprintf(text.data(), text.size(), "%.1f s", seconds);
+  } else if (seconds < 120.0) {
+    std::snprintf(text.data(), text.size(), "%.0f s", seconds);
+  } else if (seconds < 7200.0) {
+    std::snprintf(text.data(), text.size(), "%.0f min", seconds / 60.0);
+  } else {
+    std::snprintf(text.data(), text.size(), "%.4g h", seconds / 3600.0);
+  }
+  return text.data();
+}
+
+scenegraph::Color dimmed(const scenegraph::Color& color) {
+  return {.r = 0.55F * color.r, .g = 0.55F * color.g, .b = 0.55F * color.b, .a = color.a};
 }
 
 /// Transform that lays the unit line from the origin to `end`.
@@ -114,6 +129,7 @@ void TfAxesLayer::detach() {
   }
   context_.reset();
   triad_ = nullptr;
+  dim_triad_ = nullptr;
   unit_line_ = nullptr;
 }
 
@@ -156,6 +172,7 @@ void TfAxesLayer::update(const scenegraph::Tick& tick) {
     if (shown.line.valid()) {
       poseLine(shown, tick.time);
     }
+    judgeAge(shown, tick.time);
   }
   judge();
 }
@@ -166,6 +183,7 @@ void TfAxesLayer::rebuild() {
   if (has_new_settings) {
     clear();
     triad_ = settings_.show_axes ? makeTriad(settings_.axis_length_m) : nullptr;
+    dim_triad_ = settings_.show_axes ? makeTriad(settings_.axis_length_m, true) : nullptr;
     unit_line_ = settings_.show_parent_lines ? makeUnitLine() : nullptr;
     if (unit_line_.valid()) {
       unit_line_->setStateSet(line_state_.stateSet());
@@ -181,7 +199,7 @@ void TfAxesLayer::rebuild() {
     clear();
   }
   const std::regex filter(settings_.frame_filter, std::regex::ECMAScript | std::regex::nosubs);
-  const auto hidden = splitNames(settings_.hidden_frames);
+  const auto hidden = splitFrameNames(settings_.hidden_frames);
   std::size_t next = 0;
   left_out_ = 0;
   std::vector<Shown> all;
@@ -197,10 +215,17 @@ void TfAxesLayer::rebuild() {
       ++left_out_;
       continue;
     }
-    Shown& shown = all.emplace_back(Shown{id, names[id], buffer.parent(id), {}, {}});
+    Shown& shown = all.emplace_back();
+    shown.id = id;
+    shown.name = names[id];
+    shown.parent = buffer.parent(id);
     hang(shown);
   }
   shown_ = std::move(all);
+  for (Shown& shown : shown_) {
+    const auto edge = buffer.edge(shown.id);
+    shown.is_static = !edge || edge->is_static;
+  }
 }
 
 void TfAxesLayer::hang(Shown& shown) {
@@ -216,7 +241,8 @@ void TfAxesLayer::hang(Shown& shown) {
     shown.group->addChild(shown.line);
   }
   if (settings_.show_labels) {
-    shown.group->addChild(labels_.make(shown.name, settings_.label_height_px, settings_.label_color));
+    shown.label = labels_.make(shown.name, settings_.label_height_px, settings_.label_color);
+    shown.group->addChild(shown.label);
   }
   context_->frames.acquire(shown.name).addChild(shown.group);
 }
@@ -231,6 +257,65 @@ void TfAxesLayer::poseLine(Shown& shown, tf::TimePoint time) {
     }
   }
   shown.line->setNodeMask(has_length ? ~0U : 0U);
+}
+
+void TfAxesLayer::judgeAge(Shown& shown, tf::TimePoint time) {
+  const bool may_age = !shown.is_static && settings_.stale_after_s > 0.0;
+  const auto stamp = may_age ? context_->frames.buffer().stampInForce(shown.id, time) : std::nullopt;
+  const double age_s = stamp ? tf::secondsBetween(*stamp, time) : 0.0;
+  const bool is_stale = may_age && age_s > settings_.stale_after_s;
+  if (is_stale != shown.is_stale && triad_.valid()) {
+    shown.group->replaceChild(is_stale ? triad_.get() : dim_triad_.get(), is_stale ? dim_triad_.get() : triad_.get());
+  }
+  shown.is_stale = is_stale;
+  if (shown.label.valid()) {
+    shown.text = is_stale ? shown.name + " (" + ageText(age_s) + " old)" : shown.name;
+    writeLabel(shown, shown.text);
+    shown.label->setNodeMask(~0U);
+  }
+}
+
+void TfAxesLayer::writeLabel(const Shown& shown, const std::string& text) const {
+  FrameLabels::setText(*shown.label, text, shown.is_stale ? dimmed(settings_.label_color) : settings_.label_color);
+}
+
+void TfAxesLayer::setView(const scenegraph::CameraView& view, const scenegraph::PictureSize& size) {
+  if (!context_ || !visible_ || !settings_.show_labels) {
+    return;
+  }
+  constexpr double kSamePx = 3.0;
+  constexpr double kWidthOfLetter = 0.62;  // of the height of the text, in DejaVu Sans with some air
+  constexpr double kHeightOfLine = 1.2;
+  constexpr std::size_t kMostLines = 6;
+  std::vector<LabelWish> wishes(shown_.size());
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    const auto fixed_from_frame = context_->frames.fixedFromFrame(shown_[i].name);
+    const auto at = fixed_from_frame ? scenegraph::toScreen(view, size, fixed_from_frame->translation) : std::nullopt;
+    if (at && at->position_px.x >= 0.0 && at->position_px.x <= size.width_px && at->position_px.y >= 0.0 &&
+        at->position_px.y <= size.height_px) {
+      wishes[i] = {at->position_px,
+                   settings_.label_height_px *
+                       glm::dvec2(kWidthOfLetter * static_cast<double>(shown_[i].text.size()), kHeightOfLine),
+                   at->depth_m, true};
+    }
+  }
+  const std::vector<LabelPlace> places = placeLabels(wishes, kSamePx, kMostLines);
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    shown_[i].label->setNodeMask(places[i].is_shown ? ~0U : 0U);
+    if (!places[i].is_shown) {
+      continue;
+    }
+    std::string text = shown_[i].text;
+    const auto& also = places[i].also;
+    const std::size_t named = also.size() < kMostLines ? also.size() : kMostLines - 2;
+    for (std::size_t line = 0; line < named; ++line) {
+      text += '\n' + shown_[also[line]].text;
+    }
+    if (named < also.size()) {
+      text += "\n+ " + std::to_string(also.size() - named) + " more";
+    }
+    writeLabel(shown_[i], text);
+  }
 }
 
 void TfAxesLayer::judge() {
@@ -271,6 +356,9 @@ std::string TfAxesLayer::leftOutText() const {
 
 scenegraph::LayerCounts TfAxesLayer::counts() const {
   scenegraph::LayerCounts counts{{"frames", shown_.size()}, {"unresolved", shown_.size() - resolved_}};
+  if (const auto stale = std::ranges::count_if(shown_, &Shown::is_stale); stale > 0) {
+    counts.emplace_back("stale", static_cast<std::uint64_t>(stale));
+  }
   if (left_out_ > 0) {
     counts.emplace_back("left_out", left_out_);
   }

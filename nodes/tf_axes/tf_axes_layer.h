@@ -20,9 +20,9 @@ namespace stillframe::nodes {
 /// A triad at every frame and a line from each frame to its parent (REQUIREMENTS C1).
 ///
 /// All triads are one geometry and all lines another; a tick writes matrices only, of what moved. Each line lies in its
-/// child's frame and is scaled in double, so that frames on the far side of the earth cost no precision. A tick costs
-/// one lookup per shown frame with a parent; nothing when time, fixed frame, transforms and settings are as before. GUI
-/// thread.
+/// child's frame and is scaled in double, so that frames on the far side of the earth cost no precision. A frame whose
+/// own sample is older than `stale_after` is dimmed, and its name tells the age. A tick costs two lookups per shown
+/// frame with a parent; nothing when time, fixed frame, transforms and settings are as before. GUI thread.
 class TfAxesLayer final : public scenegraph::Layer {
  public:
   struct Settings {
@@ -33,6 +33,7 @@ class TfAxesLayer final : public scenegraph::Layer {
     double label_height_px = 16.0;
     std::string frame_filter;
     std::string hidden_frames;
+    double stale_after_s = 5.0;        ///< age of a dynamic frame's sample beyond which it is dimmed; 0: never
     std::int64_t max_frames = 10'000;  ///< a node each, and two draw calls: more would stall the window
     scenegraph::Color line_color{.r = 1.0F, .g = 0.0F, .b = 1.0F, .a = 1.0F};
     scenegraph::Color label_color{.r = 242 / 255.0F, .g = 242 / 255.0F, .b = 242 / 255.0F, .a = 1.0F};
@@ -50,8 +51,11 @@ class TfAxesLayer final : public scenegraph::Layer {
   void setVisible(bool visible) override;
   [[nodiscard]] bool isVisible() const override { return visible_; }
   [[nodiscard]] const scenegraph::Status& status() const override { return status_; }
-  /// "frames" shown, "unresolved" ones among them that cannot be expressed at the tick, "left_out" when there are
-  /// frames beyond max_frames.
+  /// Arranges the names, so that none covers another: of frames at one place they become one, line by line; of others
+  /// the nearer one is shown.
+  void setView(const scenegraph::CameraView& view, const scenegraph::PictureSize& size) override;
+  /// "frames" shown, "stale" ones among them, "unresolved" ones among them that cannot be expressed at the tick,
+  /// "left_out" when there are frames beyond max_frames.
   [[nodiscard]] scenegraph::LayerCounts counts() const override;
   [[nodiscard]] std::string sourceFrame() const override { return ""; }
   [[nodiscard]] bool isPending() const override { return false; }
@@ -69,6 +73,10 @@ class TfAxesLayer final : public scenegraph::Layer {
     tf::FrameId parent = tf::kNoFrame;
     osg::ref_ptr<osg::Group> group;
     osg::ref_ptr<osg::MatrixTransform> line;  // null for a root
+    osg::ref_ptr<osg::Node> label;            // null without names
+    bool is_static = true;
+    bool is_stale = false;
+    std::string text;  // the name, with the age of a stale frame
   };
   /// What the last update saw; equal means nothing to do.
   struct Inputs {
@@ -85,6 +93,8 @@ class TfAxesLayer final : public scenegraph::Layer {
   void hang(Shown& shown);
   void clear();
   void poseLine(Shown& shown, tf::TimePoint time);
+  void judgeAge(Shown& shown, tf::TimePoint time);
+  void writeLabel(const Shown& shown, const std::string& text) const;
   void judge();
 
   Settings settings_;
@@ -97,6 +107,7 @@ class TfAxesLayer final : public scenegraph::Layer {
   std::uint64_t left_out_ = 0;  // frames beyond max_frames
   osg::BoundingBoxd bounds_;
   osg::ref_ptr<osg::Geometry> triad_;
+  osg::ref_ptr<osg::Geometry> dim_triad_;
   osg::ref_ptr<osg::Geometry> unit_line_;
   LineState line_state_;
   FrameLabels labels_;

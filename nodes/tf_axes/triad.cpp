@@ -69,13 +69,22 @@ void addArm(Mesh& mesh, unsigned axis, double length, double radius, const osg::
   }
 }
 
+/// Greyed and darker.
+osg::Vec4ub dimmed(const osg::Vec4ub& color) {
+  osg::Vec4ub dim = color;
+  for (int channel = 0; channel < 3; ++channel) {
+    dim[channel] = static_cast<unsigned char>(60 + color[channel] / 5);
+  }
+  return dim;
+}
+
 }  // namespace
 
-osg::ref_ptr<osg::Geometry> makeTriad(double length_m) {
+osg::ref_ptr<osg::Geometry> makeTriad(double length_m, bool is_dim) {
   Mesh mesh;
   const double radius = length_m / 24.0;
   for (unsigned axis = 0; axis < 3; ++axis) {
-    addArm(mesh, axis, length_m, radius, toBytes(kAxisColors[axis]));
+    addArm(mesh, axis, length_m, radius, is_dim ? dimmed(toBytes(kAxisColors[axis])) : toBytes(kAxisColors[axis]));
   }
   osg::ref_ptr<osg::Geometry> triad = scenegraph::makeGeometry();
   triad->setName("triad");

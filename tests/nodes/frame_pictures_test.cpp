@@ -65,7 +65,7 @@ TEST_F(AxesPicture, HidesLinesAndFramesOnDemand) {
 
 TEST_F(AxesPicture, DrawsNoMoreFramesThanAskedForAndSaysSo) {
   open(tree(), "map");
-  auto& layer = add("tf", {{"max_frames", "2"}});
+  auto& layer = add("tf", {{"max_frames", "2"}, {"stale_after", "0"}});
   (void)draw(6_s, fromAbove());
   EXPECT_EQ(layer.counts(), (scenegraph::LayerCounts{{"frames", 2}, {"unresolved", 0}, {"left_out", 2}}));
   EXPECT_EQ(layer.status().code, "TooManyFrames");
@@ -74,6 +74,48 @@ TEST_F(AxesPicture, DrawsNoMoreFramesThanAskedForAndSaysSo) {
   (void)draw(6_s, fromAbove());
   EXPECT_EQ(layer.counts(), (scenegraph::LayerCounts{{"frames", 4}, {"unresolved", 0}}));
   EXPECT_EQ(layer.status().code, "Ok");
+}
+
+TEST_F(AxesPicture, DimsAFrameThatNothingHasBeenHeardOfAndTellsItsAge) {
+  open(tree(), "map");
+  auto& layer = add("tf", {{"axis_length", "2"}, {"hidden_frames", "map,arm,late"}, {"parent_lines", "false"}});
+  const auto reddest = [&](std::int64_t time_ns) { return pixel(draw(time_ns, fromAbove()), 165, 100)[0]; };
+  const int fresh = reddest(5_s);
+  const int stale = reddest(6_s);
+  EXPECT_GT(fresh, stale + 60);
+  EXPECT_EQ(layer.counts().back(), (std::pair<std::string, std::uint64_t>{"stale", 1}));
+  EXPECT_EQ(reddest(5_s), fresh) << "back in time it is fresh again";
+  ASSERT_TRUE(layer.applySettings({{"stale_after", "0"}}));
+  EXPECT_EQ(reddest(6_s), fresh);
+  ASSERT_TRUE(layer.applySettings({{"stale_after", "5"}, {"axes", "false"}, {"labels", "true"}}));
+  const int without_age = drawnPixels(draw(5_s, fromAbove()));
+  EXPECT_GT(drawnPixels(draw(6_s, fromAbove())), without_age + 50) << "(6.0 s old)";
+}
+
+TEST_F(AxesPicture, NamesAtOnePlaceAreWrittenBelowEachOther) {
+  open(DatasetBuilder()
+           .topic("/tf", ObjectType::FrameTransforms)
+           .transform(0, "map", "odom")
+           .transform(0, "odom", "footprint")
+           .transform(0, "footprint", "base", translate(0.5, 0, 0))
+           .build(),
+       "map");
+  add("tf", {{"axes", "false"}, {"parent_lines", "false"}, {"labels", "true"}});
+  const auto picture = draw(1_s, fromAbove());
+  // Three lines of names above the origin at pixel (100, 100); "base", 5 pixels beside them, has no room.
+  const auto drawnRows = [&](int from_x, int to_x) {
+    int rows = 0;
+    for (int y = 0; y < 200; ++y) {
+      bool is_drawn = false;
+      for (int x = from_x; x < to_x; ++x) {
+        is_drawn = is_drawn || pixel(picture, x, y)[0] > 60;
+      }
+      rows += is_drawn ? 1 : 0;
+    }
+    return rows;
+  };
+  EXPECT_GT(drawnRows(100, 199), 30) << "three lines";
+  EXPECT_LT(drawnRows(100, 199), 60);
 }
 
 TEST_F(AxesPicture, WritesNamesOnlyWhenAsked) {

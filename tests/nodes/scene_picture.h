@@ -49,6 +49,7 @@ class ScenePictureTest : public testing::Test {
   scenegraph::BytePicture draw(std::int64_t time_ns, const scenegraph::CameraView& view, int width = 200,
                                int height = 200, const scenegraph::PostChain& post = {}) {
     scene_->update(tf::TimePoint{time_ns});
+    scene_->setView(view, {static_cast<double>(width), static_cast<double>(height)});
     const auto picture = renderer_->render(
         scene_->root(), view, {.width = width, .height = height, .background = {0, 0, 0, 1}, .post = post});
     EXPECT_TRUE(picture) << picture.error().message;

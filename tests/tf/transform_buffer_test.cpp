@@ -361,5 +361,39 @@ TEST(TransformBuffer, AMillionFramesInAnyOrderTakeLinearTime) {
   }
 }
 
+TEST(TransformBuffer, HandsOutEverySampleOfAnEdgeInOrder) {
+  TransformBuffer buffer;
+  for (const std::int64_t stamp : {5, 1, 3, 200, 100}) {
+    ASSERT_TRUE(buffer.insert(sample("map", "base", stamp, yaw(0.0, static_cast<double>(stamp), 0, 0))));
+  }
+  const auto samples = buffer.samples(*buffer.findFrame("base"));
+  ASSERT_EQ(samples.size(), 5U);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(samples[i].parent_from_child.translation.x, static_cast<double>(samples[i].stamp.ns));
+    EXPECT_TRUE(i == 0 || samples[i - 1].stamp < samples[i].stamp);
+  }
+  EXPECT_TRUE(buffer.samples(*buffer.findFrame("map")).empty());
+  EXPECT_TRUE(buffer.samples(99).empty());
+}
+
+TEST(RigidTransform, RollPitchAndYawTurnAboutTheFixedAxesInTurn) {
+  const auto about = [](const glm::dvec3& axis, double angle) { return glm::angleAxis(angle, axis); };
+  for (const double roll : {-3.0, -0.4, 0.0, 2.0}) {
+    for (const double pitch : {-1.5, 0.0, 0.7}) {
+      for (const double heading : {-2.5, 0.0, 1.2}) {
+        expectNear(rollPitchYaw(about({0, 0, 1}, heading) * about({0, 1, 0}, pitch) * about({1, 0, 0}, roll)),
+                   {roll, pitch, heading}, 1e-9);
+      }
+    }
+  }
+}
+
+TEST(RigidTransform, AtNinetyDegreesOfPitchAllOfTheTurnIsYaw) {
+  for (const double pitch : {-std::numbers::pi / 2, std::numbers::pi / 2}) {
+    const glm::dquat rotation = glm::angleAxis(0.6, glm::dvec3(0, 0, 1)) * glm::angleAxis(pitch, glm::dvec3(0, 1, 0));
+    expectNear(rollPitchYaw(rotation), {0.0, pitch, 0.6}, 1e-7);
+  }
+}
+
 }  // namespace
 }  // namespace stillframe::tf

@@ -114,18 +114,6 @@ TEST(FrameTree, FillsInWhileTheBufferGrows) {
   EXPECT_EQ(tree.item("base_link")->parent(), tree.item("odom"));
 }
 
-TEST(FrameTree, ListsTheProblemsOfTheRecording) {
-  const auto dataset = test::makeRobotDataset();
-  FrameTree tree;
-  tree.setDataset(dataset);
-  EXPECT_EQ(tree.problems().topLevelItemCount(), 0);
-  dataset->addProblem({"BadChunk", "chunk at byte 12 is cut off", 3});
-  tree.refreshNow();
-  ASSERT_EQ(tree.problems().topLevelItemCount(), 1);
-  const QString text = tree.problems().topLevelItem(0)->text(0);
-  EXPECT_TRUE(text.contains(QStringLiteral("BadChunk")) && text.contains(QStringLiteral("3 times")));
-}
-
 TEST(SettingEditor, BuildsAWidgetForEachKindAndReportsEdits) {
   QString heard;
   const auto watch = [&](SettingEditor& editor) {

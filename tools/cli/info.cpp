@@ -4,6 +4,7 @@
 #include <memory>
 #include <ranges>
 
+#include "scenegraph/store/edge_problems.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/json_text.h"
 #include "tools/cli/layer_report.h"
@@ -48,6 +49,22 @@ Json frameJson(const tf::TransformBuffer& buffer, tf::FrameId frame) {
           {"is_static", edge && edge->is_static}};
 }
 
+/// Gaps, jumps and stale ends of the edges.
+std::vector<scenegraph::Problem> edgeProblemsOf(const scenegraph::Dataset& dataset) {
+  const auto range = dataset.timeRange();
+  return range ? scenegraph::edgeProblems(*dataset.transforms(), range->second) : std::vector<scenegraph::Problem>{};
+}
+
+void printProblems(const char* title, std::span<const scenegraph::Problem> problems) {
+  if (!problems.empty()) {
+    std::printf("\n%zu %s\n", problems.size(), title);
+  }
+  for (const auto& problem : problems) {
+    std::printf("  %s (%llu x): %s\n", problem.code.c_str(), static_cast<unsigned long long>(problem.count),
+                printable(problem.message).c_str());
+  }
+}
+
 Json infoJson(const Recording& recording) {
   const auto& dataset = *recording.dataset();
   const tf::TransformBuffer& buffer = *dataset.transforms();
@@ -72,7 +89,8 @@ Json infoJson(const Recording& recording) {
                                    {"log_time_ns", attachment.log_time.ns}});
   }
   json["metadata"] = recording.metadataNames();
-  json["problems"] = problemsJson(dataset);
+  json["problems"] = problemsJson(dataset.problems());
+  json["edge_problems"] = problemsJson(edgeProblemsOf(dataset));
   return json;
 }
 
@@ -147,14 +165,8 @@ void printInfo(const std::string& file, const Recording& recording) {
   }
   printTopics(recording);
   printFrames(*dataset.transforms());
-  const auto problems = dataset.problems();
-  if (!problems.empty()) {
-    std::printf("\n%zu problems\n", problems.size());
-  }
-  for (const auto& problem : problems) {
-    std::printf("  %s (%llu x): %s\n", problem.code.c_str(), static_cast<unsigned long long>(problem.count),
-                printable(problem.message).c_str());
-  }
+  printProblems("problems", dataset.problems());
+  printProblems("edges worth a look", edgeProblemsOf(dataset));
 }
 
 Result<void> runInfo(const InfoOptions& options) {

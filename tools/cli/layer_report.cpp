@@ -27,12 +27,15 @@ Json layersJson(const scenegraph::Scene& scene) {
   return layers;
 }
 
-Json problemsJson(const scenegraph::Dataset& dataset) {
-  Json problems = Json::array();
-  for (const auto& problem : dataset.problems()) {
-    problems.push_back({{"code", problem.code}, {"message", problem.message}, {"count", problem.count}});
+Json problemsJson(std::span<const scenegraph::Problem> problems) {
+  Json all = Json::array();
+  for (const auto& problem : problems) {
+    all.push_back({{"code", problem.code},
+                   {"message", problem.message},
+                   {"count", problem.count},
+                   {"time_ns", problem.time ? Json(problem.time->ns) : Json(nullptr)}});
   }
-  return problems;
+  return all;
 }
 
 void printRemarks(const scenegraph::Scene& scene, const scenegraph::Dataset& dataset) {

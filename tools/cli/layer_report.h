@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "scenegraph/scene.h"
 #include "tools/cli/json_text.h"
 
@@ -8,7 +10,7 @@ namespace stillframe::cli {
 /// What every layer of a scene says of itself: topic, type, frame, visible, status and counts.
 [[nodiscard]] Json layersJson(const scenegraph::Scene& scene);
 /// The faults found in the recording: code, message, count.
-[[nodiscard]] Json problemsJson(const scenegraph::Dataset& dataset);
+[[nodiscard]] Json problemsJson(std::span<const scenegraph::Problem> problems);
 /// A line on stdout for each layer that has something to say, and for each problem.
 void printRemarks(const scenegraph::Scene& scene, const scenegraph::Dataset& dataset);
 

@@ -84,6 +84,8 @@ Result<void> runRender(const RenderCommandOptions& options) {
   if (!renderer) {
     return std::unexpected(fileError(options.out, renderer.error()));
   }
+  session.scene().setView(session.camera(),
+                          {static_cast<double>(view->size.width_px), static_cast<double>(view->size.height_px)});
   // An .exr is scene-linear, before the tone curve.
   const scenegraph::RenderOptions render_options{view->size.width_px, view->size.height_px, view->background,
                                                  is_exr ? effects->linearChain() : effects->chain()};
@@ -115,7 +117,7 @@ Result<void> runRender(const RenderCommandOptions& options) {
                     {"samples", frame.samples},
                     {"layers", layersJson(session.scene())},
                     {"renderer", (*renderer)->context().info().renderer},
-                    {"problems", problemsJson(dataset)}};
+                    {"problems", problemsJson(dataset.problems())}};
     std::fputs(jsonText(json).c_str(), stdout);
   } else {
     std::printf("%s: %d x %d at %lld ns, fixed frame '%s', %.1f ms\n", printable(options.out).c_str(),

@@ -5,12 +5,14 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/cli/commands.h"
 #include "tools/cli/layer_argument.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/time_argument.h"
+#include "tools/cli/view_options.h"
 #ifdef STILLFRAME_HAS_VIEWER
 #include "tools/ingest/file.h"
 #include "viewer/inspector.h"
@@ -29,6 +31,8 @@ struct ViewCommandOptions {
   std::string fixed_frame;
   std::vector<std::string> layers;
   bool only_named_layers = false;
+  std::string camera = "orbit";
+  std::string follow;
   std::string screenshot;
 };
 
@@ -95,6 +99,19 @@ Result<void> runView(const ViewCommandOptions& options) {
         "view needs a display, and neither DISPLAY nor WAYLAND_DISPLAY is set; 'stillframe render FILE --out "
         "picture.png' needs none");
   }
+  const auto camera = parseCamera(options.camera);
+  if (!camera) {
+    return std::unexpected(camera.error());
+  }
+  inspector.camera = *camera;
+  if (!options.follow.empty()) {
+    auto follow = parseFollow(options.follow);
+    if (!follow) {
+      return std::unexpected(follow.error());
+    }
+    inspector.display_frame = std::move(follow->first);
+    inspector.follow = follow->second;
+  }
   inspector.layers.only = options.only_named_layers;
   inspector.time = options.time;
   inspector.views = options.views;
@@ -133,6 +150,11 @@ Command addViewCommand(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--time", options->time, "Nanoseconds, +SECONDS from the start, start, or end")->capture_default_str();
   app.add_option("--fixed-frame", options->fixed_frame, "Frame that stands still; default: map, world, odom, ...");
+  app.add_option("--camera", options->camera, "orbit, xyorbit, topdown (from above, without perspective) or fly")
+      ->type_name("MODEL")
+      ->capture_default_str();
+  app.add_option("--follow", options->follow, "FRAME[:position|heading|pose]: the camera goes along with this frame")
+      ->type_name("FRAME[:MODE]");
   app.add_option("--layer", options->layers, "TOPIC[:key=value,...]: settings of a layer; may be repeated")
       ->type_name("LAYER")
       ->allow_extra_args(false);

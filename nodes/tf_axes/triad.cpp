@@ -1,5 +1,6 @@
 #include "nodes/tf_axes/triad.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <osg/Array>
@@ -69,22 +70,15 @@ void addArm(Mesh& mesh, unsigned axis, double length, double radius, const osg::
   }
 }
 
-/// Greyed and darker.
-osg::Vec4ub dimmed(const osg::Vec4ub& color) {
-  osg::Vec4ub dim = color;
-  for (int channel = 0; channel < 3; ++channel) {
-    dim[channel] = static_cast<unsigned char>(60 + color[channel] / 5);
-  }
-  return dim;
-}
-
 }  // namespace
 
 osg::ref_ptr<osg::Geometry> makeTriad(double length_m, bool is_dim) {
   Mesh mesh;
   const double radius = length_m / 24.0;
+  const std::array<osg::Vec4ub, 3> dim_colors{
+      {osg::Vec4ub(112, 76, 76, 255), osg::Vec4ub(76, 104, 80, 255), osg::Vec4ub(78, 86, 116, 255)}};
   for (unsigned axis = 0; axis < 3; ++axis) {
-    addArm(mesh, axis, length_m, radius, is_dim ? dimmed(toBytes(kAxisColors[axis])) : toBytes(kAxisColors[axis]));
+    addArm(mesh, axis, length_m, radius, is_dim ? dim_colors[axis] : toBytes(kAxisColors[axis]));
   }
   osg::ref_ptr<osg::Geometry> triad = scenegraph::makeGeometry();
   triad->setName("triad");

@@ -103,15 +103,13 @@ bool Follow::track(const Pose& fixed_from_frame, CameraRig& rig) {
 }
 
 void Follow::reset(const Pose& fixed_from_frame) {
-  if (state_.mode != FollowMode::Off && !fixed_from_frame) {
-    return;
-  }
   state_.base_from_camera = {};
-  state_.is_waiting = false;
-  if (state_.mode == FollowMode::Heading) {
+  state_.is_waiting = state_.mode != FollowMode::Off && !fixed_from_frame;
+  if (state_.mode == FollowMode::Heading && fixed_from_frame) {
     state_.heading_zero = turnAboutZ(-headingOf(fixed_from_frame->rotation)) * fixed_from_frame->rotation;
   }
-  state_.fixed_from_camera = base(fixed_from_frame.value_or(tf::RigidTransform{}));
+  state_.fixed_from_camera =
+      state_.is_waiting ? tf::RigidTransform{} : base(fixed_from_frame.value_or(tf::RigidTransform{}));
 }
 
 void Follow::recenter(const Pose& fixed_from_frame, CameraRig& rig) {

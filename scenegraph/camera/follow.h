@@ -55,7 +55,7 @@ class Follow {
   bool track(const Pose& fixed_from_frame, CameraRig& rig);
   /// The frame comes to the middle of the picture, seen upright from where it was seen, at the same distance.
   void recenter(const Pose& fixed_from_frame, CameraRig& rig);
-  /// Upright in the base, for a new view. Frames nothing.
+  /// Upright in the base, for a new view; in the fixed frame until the followed one has a place. Frames nothing.
   void reset(const Pose& fixed_from_frame);
   /// The fixed frame is another now: the view of the data stays, upright in the new frame unless the mode is Pose.
   void changeFixedFrame(const tf::RigidTransform& new_from_old, const Pose& new_from_frame, CameraRig& rig);

@@ -175,8 +175,8 @@ void TransformLoader::insertGathered() {
       auto found = refusal_index_.find(key);
       if (found == refusal_index_.end() && refusal_problems_.size() < kMaxListedRefusals) {
         found = refusal_index_.emplace(key, refusal_problems_.size()).first;
-        refusal_problems_.push_back({std::string(tf::toString(refusal.error)), refusalMessage(refusal, buffer_), 0,
-                                     refusal.first_stamp});
+        refusal_problems_.push_back(
+            {std::string(tf::toString(refusal.error)), refusalMessage(refusal, buffer_), 0, refusal.first_stamp});
       }
       if (found != refusal_index_.end()) {
         refusal_problems_[found->second].count += refusal.count;

@@ -77,6 +77,19 @@ TEST_F(GoldenPicture, AxesAndParentLines) {
   EXPECT_THAT(countColor(picture, {255, 0, 255}), AllOf(Ge(70), Le(82)));
 }
 
+TEST_F(GoldenPicture, NamesOfFramesBesideOldOnes) {
+  // Every frame here is 9 s old, and says so.
+  add("tf", {{"axis_length", "0.8"}, {"hidden_frames", "utm"}, {"labels", "true"}, {"label_height", "12"}});
+  const auto view =
+      scenegraph::CameraView{.eye_from_fixed = scenegraph::lookAt({3.5, -5.0, 4.0}, {0, 0, 0.3}, {0, 0, 1})};
+  const auto picture = draw(9_s, view, 320, 240);
+  EXPECT_TRUE(matchesGolden(picture, "axes_names"));
+  for (const std::size_t channel : {0U, 1U, 2U}) {
+    EXPECT_LT(countHue(picture, channel), 40) << "dimmed";
+  }
+  EXPECT_EQ(drawnPixels(draw(9_s, view, 320, 240)), drawnPixels(picture)) << "drawn again, the same";
+}
+
 TEST_F(GoldenPicture, Grid) {
   add("grid");
   const auto picture = drawRobot();

@@ -146,6 +146,16 @@ TEST_P(EveryCameraFollows, AFrameThatIsAbsentKeepsTheViewUntilItAppears) {
   EXPECT_EQ(view().eye_from_fixed, taken_up.eye_from_fixed) << "gone again: it stays where it was";
 }
 
+TEST_P(EveryCameraFollows, ANewViewStandsUprightInTheFixedFrameUntilItsFrameAppears) {
+  follow.setMode(FollowMode::Pose, RigidTransform{about({0.6, 0.8, 0}, 0.5), {3, 4, 5}}, rig);
+  follow.reset(std::nullopt);
+  EXPECT_EQ(follow.fixedFromCamera().rotation, glm::dquat(1, 0, 0, 0));
+  EXPECT_TRUE(follow.state().is_waiting);
+  const CameraView before = view();
+  follow.track(RigidTransform{about({0, 0.6, 0.8}, 0.7), {3, 4, 5}}, rig);
+  EXPECT_LT(difference(before, view(), seen(), 12.0), 1e-9);
+}
+
 TEST_P(EveryCameraFollows, RecenterBringsTheFrameToTheMiddleAndKeepsTheDistance) {
   Random random(41);
   for (const FollowMode mode : kFollowModes) {

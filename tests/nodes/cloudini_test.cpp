@@ -120,14 +120,19 @@ std::vector<Variant> allVariants() {
   for (const unsigned version : {3U, 4U, 5U}) {
     for (const Encoding encoding : {Encoding::None, Encoding::Lossy, Encoding::Lossless}) {
       for (const Compression compression : {Compression::None, Compression::Lz4, Compression::Zstd}) {
-        const bool is_binary = (version + static_cast<unsigned>(compression)) % 2 == 0;
-        variants.push_back({version, encoding, compression, is_binary, SectionMode::Differences});
+        for (const bool is_binary : {false, true}) {
+          variants.push_back({version, encoding, compression, is_binary, SectionMode::Differences});
+        }
       }
     }
   }
   for (const SectionMode mode : {SectionMode::Palette, SectionMode::Runs, SectionMode::DifferenceRuns}) {
-    variants.push_back({5, Encoding::Lossy, Compression::Zstd, false, mode});
-    variants.push_back({5, Encoding::Lossy, Compression::None, true, mode});
+    for (const Compression compression : {Compression::None, Compression::Lz4, Compression::Zstd}) {
+      for (const bool is_binary : {false, true}) {
+        variants.push_back({5, Encoding::Lossy, compression, is_binary, mode});
+        variants.push_back({5, Encoding::Lossless, compression, is_binary, mode});
+      }
+    }
   }
   return variants;
 }
@@ -159,6 +164,13 @@ TEST_P(CloudiniVariant, GivesBackEveryFieldOfEveryPoint) {
   EXPECT_EQ(cloud->height, 1U);
   EXPECT_EQ(cloud->point_step, Record::kStep);
   EXPECT_EQ(cloud->row_step, 1000U * Record::kStep);
+  expectEqualPoints(*cloud, points, GetParam().encoding == Encoding::Lossy);
+}
+
+TEST_P(CloudiniVariant, BeginsAnewWithTheSecondChunk) {
+  const auto points = makePoints(33'000);  // a chunk holds 32 768
+  const auto cloud = decodeCloudini(toPayload(write(GetParam(), 33'000, points)));
+  ASSERT_TRUE(cloud) << cloud.error().message;
   expectEqualPoints(*cloud, points, GetParam().encoding == Encoding::Lossy);
 }
 

@@ -27,6 +27,15 @@ PatchStream::PatchStream() : cells_(std::size_t{kSide} * kSide, std::byte{0xFF})
 
 nodes::GridHistory PatchStream::makeHistory() const { return {header_, cells_}; }
 
+scenegraph::OccupancyGrid PatchStream::base() const {
+  scenegraph::OccupancyGrid grid;
+  grid.frame_id = "map";
+  grid.resolution_m = header_.resolution_m;
+  grid.width = grid.height = kSide;
+  grid.data.bytes = cells_;
+  return grid;
+}
+
 nodes::GridState PatchStream::seek(nodes::GridHistory& history, std::size_t count) const {
   return history.at(std::span(ids_).first(count), [&](std::size_t place) { return patches_[place]; });
 }

@@ -18,6 +18,9 @@ class PatchStream {
 
   PatchStream();
   [[nodiscard]] nodes::GridHistory makeHistory() const;
+  /// The grid and the patches as messages; the grid's bytes stay those of this.
+  [[nodiscard]] scenegraph::OccupancyGrid base() const;
+  [[nodiscard]] const scenegraph::OccupancyGridUpdate& patch(std::size_t place) const { return *patches_[place]; }
   /// The state after the first `count` patches.
   [[nodiscard]] nodes::GridState seek(nodes::GridHistory& history, std::size_t count) const;
 

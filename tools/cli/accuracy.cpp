@@ -6,6 +6,7 @@
 #include <string>
 
 #include "scenegraph/pipeline/offscreen_renderer.h"
+#include "tools/accuracy/depth_accuracy.h"
 #include "tools/accuracy/points_accuracy.h"
 #include "tools/accuracy/post_accuracy.h"
 #include "tools/accuracy/tf_accuracy.h"
@@ -26,6 +27,8 @@ struct AccuracyOptions {
 };
 
 Result<AccuracyReport> reportOfTf(const AccuracyOptions& /*options*/) { return accuracy::tfAccuracy().report; }
+
+Result<AccuracyReport> reportOfDepth(const AccuracyOptions& /*options*/) { return accuracy::depthAccuracy().report; }
 
 /// The clouds of the file's last instant, or of a sample made for it, as they are seen from above at an angle.
 Result<AccuracyReport> reportOfPoints(const AccuracyOptions& options) {
@@ -83,6 +86,7 @@ struct Subject {
 constexpr std::array kSubjects{
     Subject{"tf", "the ways of composing a chain of transforms", &reportOfTf},
     Subject{"post", "the post passes: occlusion, eye-dome lighting, target formats, anti-aliasing", &reportOfPost},
+    Subject{"depth", "turning round the lens of a depth camera", &reportOfDepth},
     Subject{"points", "drawing fewer points, by each rasteriser, of FILE or of a sample", &reportOfPoints},
 };
 

@@ -116,7 +116,7 @@ void print(const std::vector<BenchResult>& results, const std::string& processor
            const std::string& renderer) {
   std::printf("%s, %u cores; renderer: %s\n", processor.c_str(), cores, renderer.c_str());
   for (const BenchResult& result : results) {
-    std::printf("  %-42s %12.4g %-12s", result.name.c_str(), result.value, result.unit.c_str());
+    std::printf("  %-60s %12.4g %-12s", result.name.c_str(), result.value, result.unit.c_str());
     if (result.at_most) {
       std::printf(" %s (at most %g)", result.value <= *result.at_most ? "ok" : "MISSED", *result.at_most);
     } else if (result.at_least) {
@@ -169,6 +169,7 @@ Result<void> runBench(const BenchOptions& options) {
   benchRobot(results);
   benchVoxels(results);
   benchPoses(results);
+  benchSensors(results);
   benchTransforms(results);
   const unsigned cores = std::thread::hardware_concurrency();
   if (options.is_json) {

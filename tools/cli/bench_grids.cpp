@@ -19,11 +19,14 @@ void benchGrids(std::vector<BenchResult>& results) {
   auto history = stream.makeHistory();
   const double first_s = secondsOf([&] { (void)stream.seek(history, bench::PatchStream::kPatches); });
   results.push_back({"occupancy grid, first pass of 10 000 patches", 1e3 * first_s, "ms"});
-  std::mt19937 random(7);
-  std::vector<double> seeks_ms;
-  for (int i = 0; i < 300; ++i) {
-    const std::size_t place = random() % (bench::PatchStream::kPatches + 1);
-    seeks_ms.push_back(1e3 * secondsOf([&] { (void)stream.seek(history, place); }));
+  // The same places three times: what one round has and the others have not is the machine's.
+  std::vector<double> seeks_ms(300, 1e9);
+  for (int round = 0; round < 3; ++round) {
+    std::mt19937 random(7);
+    for (double& best_ms : seeks_ms) {
+      const std::size_t place = random() % (bench::PatchStream::kPatches + 1);
+      best_ms = std::min(best_ms, 1e3 * secondsOf([&] { (void)stream.seek(history, place); }));
+    }
   }
   std::ranges::sort(seeks_ms);
   results.push_back({"occupancy grid, seek among 10 000 patches, median", quantile(seeks_ms, 0.5), "ms"});

@@ -54,6 +54,8 @@ void benchRobot(std::vector<BenchResult>& results);
 void benchVoxels(std::vector<BenchResult>& results);
 /// Ticks of layers of poses and paths.
 void benchPoses(std::vector<BenchResult>& results);
+/// Scans, depth images and grid maps beside memory copy; ticks of a view among 10 000 patches.
+void benchSensors(std::vector<BenchResult>& results);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
 

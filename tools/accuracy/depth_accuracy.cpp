@@ -92,9 +92,12 @@ std::optional<Point> newton(const CameraModel& model, const Sample& sample, bool
   if (!ray) {
     return std::nullopt;
   }
-  return as_floats ? Point{static_cast<double>(static_cast<float>(ray->at.x)),
-                           static_cast<double>(static_cast<float>(ray->at.y))}
-                   : ray->at;
+  if (!as_floats) {
+    return ray->at;
+  }
+  const volatile auto x = static_cast<float>(ray->at.x);  // g++ 12 -O3 leaves the rounding of both branches out
+  const volatile auto y = static_cast<float>(ray->at.y);
+  return Point{static_cast<double>(x), static_cast<double>(y)};
 }
 
 DepthAccuracyRow measure(const Lens& lens, const std::string& method, int steps, const std::vector<Sample>& samples,

@@ -7,6 +7,7 @@
 #include "nodes/grid/grid_layer.h"
 #include "nodes/grid_map/grid_map_layer.h"
 #include "nodes/laser_scan/laser_scan_layer.h"
+#include "nodes/markers/markers_layer.h"
 #include "nodes/occupancy_grid/occupancy_grid_layer.h"
 #include "nodes/point_cloud/point_cloud_layer.h"
 #include "nodes/poses/poses_layer.h"
@@ -31,6 +32,7 @@ std::span<const scenegraph::LayerType> layerTypes() {
       {"depth_image", "Depth image", Image, &DepthImageLayer::create},
       {"robot_model", "Robot", RobotDescription, &RobotModelLayer::create},
       {"voxel_grid", "Voxel grid", VoxelGrid, &VoxelGridLayer::create},
+      {"markers", "Markers", SceneEntities, &MarkersLayer::create},
   };
   return kTypes;
 }

@@ -1,5 +1,7 @@
 #include "scenegraph/frame_graph.h"
 
+#include "scenegraph/buffer_patches.h"
+
 #include <algorithm>
 #include <bit>
 #include <glm/gtc/type_ptr.hpp>
@@ -23,6 +25,7 @@ bool isSameByBits(const osg::Matrixd& a, const osg::Matrixd& b) {
 FrameGraph::FrameGraph(std::shared_ptr<const tf::TransformBuffer> buffer)
     : buffer_(std::move(buffer)), root_(new osg::Group) {
   root_->setName("frames");
+  BufferPatches::hangOn(*root_);
   root_->setDataVariance(osg::Object::DYNAMIC);
 }
 

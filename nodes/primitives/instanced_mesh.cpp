@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <osg/BufferObject>
 #include <osg/TextureBuffer>
 
 #include "generated/stillframe_nodes/shaders.h"
 #include "scenegraph/blending.h"
+#include "scenegraph/buffer_patches.h"
 #include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
 namespace {
 
 constexpr unsigned kInstanceUnit = 1;  // 0 is for a texture on the mesh
-constexpr double kReach = 1e18;        // products of two such still fit a float
-
-double channel(float value) { return value >= 0.0F ? std::min(static_cast<double>(value), 1.0) : 0.0; }  // NaN is 0
 
 osg::Vec3 toVec3(const glm::dvec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -23,35 +22,13 @@ osg::Vec3 toVec3(const glm::dvec3& v) {
 
 }  // namespace
 
-Instance makeInstance(const tf::RigidTransform& frame_from_mesh, const glm::dvec3& scale,
-                      const glm::dvec3& origin_in_frame, const scenegraph::Color& color) {
-  Instance instance;
-  const glm::dmat3 rotation = glm::mat3_cast(frame_from_mesh.rotation);
-  const glm::dvec3 offset = frame_from_mesh.translation - origin_in_frame;
-  bool is_sound = true;
-  std::array<double, 12> rows{};
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) {
-      const double value = column < 3 ? rotation[column][row] * scale[column] : offset[row];
-      is_sound = is_sound && std::abs(value) <= kReach;  // false for NaN
-      rows[static_cast<std::size_t>(4 * row + column)] = value;
-    }
-  }
-  if (is_sound) {
-    std::ranges::transform(rows, instance.local_from_mesh.begin(), [](double v) { return static_cast<float>(v); });
-  }
-  const auto byte = [](float value) { return static_cast<std::uint32_t>(std::lround(255.0 * channel(value))); };
-  instance.rgb = static_cast<float>((byte(color.r) << 16U) | (byte(color.g) << 8U) | byte(color.b));
-  instance.alpha = is_sound ? static_cast<float>(channel(color.a)) : 0.0F;
-  return instance;
-}
-
-InstancedMesh::InstancedMesh(const TriangleMesh& mesh, const std::string& name)
+InstancedMesh::InstancedMesh(const TriangleMesh& mesh, const std::string& name, Look look)
     : node_(new osg::MatrixTransform),
       geometry_(scenegraph::makeGeometry()),
       vertices_(new osg::Vec3Array(osg::Array::BIND_PER_VERTEX)),
       triangles_(new osg::DrawElementsUInt(GL_TRIANGLES)),
-      texels_(new osg::Vec4Array) {
+      texels_(new osg::Vec4Array),
+      opacity_(new osg::Uniform("u_opacity", 1.0F)) {
   const osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
   mesh_low_ = mesh_high_ = mesh.positions.empty() ? glm::dvec3(0.0) : glm::dvec3(mesh.positions.front());
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -71,6 +48,10 @@ InstancedMesh::InstancedMesh(const TriangleMesh& mesh, const std::string& name)
     vertices_->push_back({});
     normals->push_back({0.0F, 0.0F, 1.0F});
   }
+  // The corners change with the copies.
+  const osg::ref_ptr<osg::VertexBufferObject> buffer_object = new osg::VertexBufferObject;
+  buffer_object->setUsage(GL_DYNAMIC_DRAW_ARB);
+  vertices_->setVertexBufferObject(buffer_object);
   geometry_->setName(name);
   geometry_->setVertexArray(vertices_);
   geometry_->setNormalArray(normals);
@@ -83,6 +64,9 @@ InstancedMesh::InstancedMesh(const TriangleMesh& mesh, const std::string& name)
       scenegraph::makeProgram("primitive", shaders::k_primitive_vert, shaders::k_primitive_frag));
   state.setTextureAttribute(kInstanceUnit, buffer);
   state.addUniform(new osg::Uniform("u_instances", static_cast<int>(kInstanceUnit)));
+  state.addUniform(new osg::Uniform("u_faces_viewer", look == Look::Square));
+  state.addUniform(opacity_);
+  faces_viewer_ = look == Look::Square;
   node_->setName(name);
   node_->addChild(geometry_);
   is_dirty_ = true;
@@ -104,6 +88,7 @@ void InstancedMesh::resize(std::size_t count) {
     return;
   }
   texels_->resize(kTexels * count);
+  is_resized_ = true;
   boxes_.resize((count + kBlock - 1) / kBlock);
   is_block_touched_.resize(boxes_.size(), 0);
   std::erase_if(touched_blocks_, [&](std::size_t block) { return block >= boxes_.size(); });
@@ -121,8 +106,18 @@ void InstancedMesh::set(std::size_t first, std::span<const Instance> instances) 
   touch(first, first + instances.size());
 }
 
+void InstancedMesh::hide(std::size_t first, std::size_t count) {
+  const std::size_t last = std::min(first + count, size());
+  if (first < last) {
+    std::fill(texels_->begin() + static_cast<std::ptrdiff_t>(kTexels * first),
+              texels_->begin() + static_cast<std::ptrdiff_t>(kTexels * last), osg::Vec4());
+    touch(first, last);
+  }
+}
+
 void InstancedMesh::touch(std::size_t first, std::size_t last) {
   is_dirty_ = true;
+  touched_.emplace_back(first, last);
   for (std::size_t block = first / kBlock; block * kBlock < last; ++block) {
     if (is_block_touched_[block] == 0) {
       is_block_touched_[block] = 1;
@@ -134,6 +129,8 @@ void InstancedMesh::touch(std::size_t first, std::size_t last) {
 void InstancedMesh::setBlended(bool is_blended) {
   scenegraph::setBlended(*geometry_->getOrCreateStateSet(), is_blended);
 }
+
+void InstancedMesh::setOpacity(double opacity) { opacity_->set(static_cast<float>(opacity)); }
 
 void InstancedMesh::commit() {
   if (!is_dirty_) {
@@ -156,7 +153,11 @@ void InstancedMesh::commit() {
       for (int row = 0; row < 3; ++row) {
         const float* const m = &instance.local_from_mesh[static_cast<std::size_t>(4 * row)];
         const double at_centre = m[0] * centre.x + m[1] * centre.y + m[2] * centre.z + m[3];
-        const double reach = std::abs(m[0]) * half.x + std::abs(m[1]) * half.y + std::abs(m[2]) * half.z;
+        double reach = std::abs(m[0]) * half.x + std::abs(m[1]) * half.y + std::abs(m[2]) * half.z;
+        if (faces_viewer_) {  // whichever way it is turned
+          const auto& all = instance.local_from_mesh;
+          reach = std::hypot(all[0] * half.x, all[5] * half.y);
+        }
         low[row] = at_centre - reach;
         high[row] = at_centre + reach;
       }
@@ -170,10 +171,23 @@ void InstancedMesh::commit() {
     box_.expandBy(box);
   }
   triangles_->setNumInstances(static_cast<int>(size()));
-  triangles_->dirty();
-  texels_->dirty();
+  upload();
   setCorners();
   node_->setNodeMask(box_.valid() ? ~0U : 0U);
+}
+
+void InstancedMesh::upload() {
+  scenegraph::BufferPatches* const patches = is_resized_ ? nullptr : scenegraph::BufferPatches::find(*node_);
+  if (patches == nullptr) {
+    texels_->dirty();
+  }
+  for (const auto& [first, last] : touched_) {
+    if (patches != nullptr) {
+      patches->add(*texels_, first * sizeof(Instance), last * sizeof(Instance));
+    }
+  }
+  touched_.clear();
+  is_resized_ = false;
 }
 
 void InstancedMesh::setCorners() {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -9,31 +8,17 @@
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/PrimitiveSet>
+#include <osg/Uniform>
 #include <osg/ref_ptr>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "nodes/primitives/instance.h"
 #include "nodes/primitives/triangle_mesh.h"
-#include "scenegraph/settings.h"
-#include "tf/rigid_transform.h"
 
 namespace stillframe::nodes {
-
-/// One copy of a mesh, in the layout of the shader's texels.
-struct Instance {
-  std::array<float, 12> local_from_mesh{};  ///< three rows of four, relative to the origin of the InstancedMesh
-  float rgb = 0.0F;                         ///< 0xrrggbb, sRGB
-  float alpha = 1.0F;
-  float taper = 1.0F;  ///< below 1: radius at z = +0.5; above 1: 2 - radius at z = -0.5; of a frustum's unit radius
-  float id = 0.0F;     ///< the caller's, exact below 2^24; not drawn
-};
-static_assert(sizeof(Instance) == 64);
-
-/// A mesh scaled along its own axes, then placed. Positions beyond 1e18 m of the origin, NaN and infinities give a copy
-/// of no extent, which is not seen. Colours are clamped to 0..1; NaN is 0.
-[[nodiscard]] Instance makeInstance(const tf::RigidTransform& frame_from_mesh, const glm::dvec3& scale,
-                                    const glm::dvec3& origin_in_frame, const scenegraph::Color& color);
 
 /// Any number of copies of one mesh in one draw call, for every layer that draws shapes.
 ///
@@ -43,7 +28,13 @@ static_assert(sizeof(Instance) == 64);
 /// bound and to the GPU, at the cost of what changed. GUI thread.
 class InstancedMesh {
  public:
-  InstancedMesh(const TriangleMesh& mesh, const std::string& name);
+  /// What a mesh is drawn as.
+  enum class Look : std::uint8_t {
+    Solid,   ///< lit from the eye
+    Square,  ///< turned to the viewer about its origin, unlit; matrices scale and place it, and turn nothing
+  };
+
+  InstancedMesh(const TriangleMesh& mesh, const std::string& name, Look look = Look::Solid);
 
   [[nodiscard]] osg::MatrixTransform& node() const noexcept { return *node_; }
   [[nodiscard]] std::size_t size() const noexcept { return texels_->size() / kTexels; }
@@ -55,8 +46,12 @@ class InstancedMesh {
   void resize(std::size_t count);
   /// `instances` take the place of those from `first` on; all must be within size().
   void set(std::size_t first, std::span<const Instance> instances);
+  /// Those from `first` on are not seen any more; what lies beyond size() does not count.
+  void hide(std::size_t first, std::size_t count);
   /// Blended when true (scenegraph::setBlended).
   void setBlended(bool is_blended);
+  /// Multiplies every copy's alpha; counts when blended.
+  void setOpacity(double opacity);
   /// Call once after changes, before the next frame.
   void commit();
 
@@ -69,6 +64,7 @@ class InstancedMesh {
 
   [[nodiscard]] const Instance& at(std::size_t index) const;
   void touch(std::size_t first, std::size_t last);
+  void upload();
   void setCorners();
 
   osg::ref_ptr<osg::MatrixTransform> node_;
@@ -76,12 +72,16 @@ class InstancedMesh {
   osg::ref_ptr<osg::Vec3Array> vertices_;  // of the mesh, and two corners of the bound
   osg::ref_ptr<osg::DrawElementsUInt> triangles_;
   osg::ref_ptr<osg::Vec4Array> texels_;
+  osg::ref_ptr<osg::Uniform> opacity_;
   glm::dvec3 origin_{0.0};
   glm::dvec3 mesh_low_{0.0};
   glm::dvec3 mesh_high_{0.0};
   std::vector<osg::BoundingBoxd> boxes_;  // one a block
   std::vector<std::uint8_t> is_block_touched_;
   std::vector<std::size_t> touched_blocks_;
+  std::vector<std::pair<std::size_t, std::size_t>> touched_;  // copies, as they were written
+  bool is_resized_ = false;
+  bool faces_viewer_ = false;
   bool is_dirty_ = false;
   osg::BoundingBoxd box_;
 };

@@ -153,4 +153,12 @@ TriangleMesh discMesh(unsigned sides) {
   return mesh;
 }
 
+TriangleMesh squareMesh() {
+  TriangleMesh mesh;
+  mesh.positions = {{-0.5F, -0.5F, 0.0F}, {0.5F, -0.5F, 0.0F}, {0.5F, 0.5F, 0.0F}, {-0.5F, 0.5F, 0.0F}};
+  mesh.normals.assign(4, glm::vec3(0.0F, 0.0F, 1.0F));
+  mesh.triangles = {0, 1, 2, 0, 2, 3};
+  return mesh;
+}
+
 }  // namespace stillframe::nodes

@@ -31,6 +31,8 @@ struct TriangleMesh {
 [[nodiscard]] TriangleMesh capsuleMesh(float radius, float length, unsigned sides = 24);
 /// In the plane z = 0, diameter 1 about the origin, with a face to either side.
 [[nodiscard]] TriangleMesh discMesh(unsigned sides = 24);
+/// In the plane z = 0, edges of 1 about the origin, facing +z only.
+[[nodiscard]] TriangleMesh squareMesh();
 /// @}
 
 }  // namespace stillframe::nodes

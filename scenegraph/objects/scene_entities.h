@@ -26,6 +26,7 @@ struct ArrowPrimitive {
   tf::RigidTransform pose;
   double shaft_length = 0.0, shaft_diameter = 0.0, head_length = 0.0, head_diameter = 0.0;
   EntityColor color;
+  double height_ratio = 1.0;  ///< extent along z against that along y: ROS scales them apart
 };
 /// `pose` is the centre. Sphere: size = three diameters.
 struct CubePrimitive {

@@ -9,6 +9,7 @@
 #include <osgViewer/Renderer>
 #include <osgViewer/Viewer>
 
+#include "scenegraph/buffer_patches.h"
 #include "scenegraph/pipeline/gl_target.h"
 #include "scenegraph/pipeline/stages.h"
 
@@ -156,6 +157,9 @@ std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, i
   stages->setView(toOsg(view.eye_from_fixed), projection_matrix, background);
   window->setDefaultFboId(output_fbo);
   adoptGlState();
+  if (BufferPatches* const patches = BufferPatches::find(*root)) {
+    patches->upload(contextId());
+  }
   for (int i = 0; i < stages->subFrames(); ++i) {
     stages->startSubFrame(i);
     gl::bindFramebuffer(output_fbo);

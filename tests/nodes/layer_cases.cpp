@@ -1,11 +1,13 @@
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "nodes/registry.h"
 #include "scenegraph/objects/compressed_point_cloud.h"
 #include "scenegraph/objects/laser_scan.h"
 #include "scenegraph/objects/poses.h"
 #include "scenegraph/objects/robot_description.h"
+#include "scenegraph/objects/scene_entities.h"
 #include "tests/nodes/grid_map_builder.h"
 #include "tests/nodes/images/image_builder.h"
 #include "tests/nodes/occupancy_grid/grid_builder.h"
@@ -197,6 +199,86 @@ void addEmptyPoses(DatasetBuilder& builder, std::int64_t log_ns, const std::stri
   builder.at(log_ns, std::move(poses));
 }
 
+/// One entity of every kind of primitive, replaced by the next message; another that ends with its lifetime; and some
+/// of few ids that come and go.
+void addMarkers(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame, unsigned seed) {
+  Random random(seed);
+  const auto pose = [&] {
+    return tf::RigidTransform{.rotation = {1, 0, 0, 0},
+                              .translation = {random.number(-5, 5), random.number(-5, 5), random.number(0, 2)}};
+  };
+  scenegraph::SceneEntities scene;
+  const auto add = [&](scenegraph::SceneEntity entity) {
+    entity.frame_id = frame;
+    entity.is_frame_locked = true;
+    scene.steps.push_back({false, scene.entities.size()});
+    scene.entities.push_back(std::move(entity));
+  };
+  scene.deletions.push_back({.type = scenegraph::SceneEntityDeletion::Type::All,
+                             .stamp = {std::numeric_limits<std::int64_t>::max()},
+                             .id = "",
+                             .marker_namespace = "few"});
+  scene.steps.push_back({true, 0});
+  scenegraph::SceneEntity all;
+  all.id = "all";
+  all.marker_namespace = "kinds";
+  all.arrows.push_back({.pose = pose(),
+                        .shaft_length = 1,
+                        .shaft_diameter = 0.1,
+                        .head_length = 0.3,
+                        .head_diameter = 0.2,
+                        .color = {1, 0, 0, seed % 2 == 0 ? 1.0F : 0.5F}});
+  all.cylinders.push_back({.pose = pose(), .size = {1, 1, 2}, .bottom_scale = 1, .top_scale = 0.5, .color = {}});
+  all.points.push_back(
+      {.pose = pose(), .width_m = 0.1, .height_m = 0.1, .points = {{0, 0, 0}, {1, 1, 1}}, .color = {}, .colors = {}});
+  all.lines.push_back({.type = scenegraph::LineType::Strip,
+                       .pose = pose(),
+                       .thickness = 0.1,
+                       .points = {{0, 0, 0}, {1, 0, 0}, {1, random.number(0, 1), 0}},
+                       .color = {},
+                       .colors = {},
+                       .indices = {}});
+  all.triangles.push_back({.pose = pose(),
+                           .points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                           .color = {0, 1, 0, 0.5F},
+                           .colors = {},
+                           .indices = {}});
+  all.texts.push_back(
+      {.pose = pose(), .is_billboard = true, .font_size = 0.5, .color = {}, .text = "gr\u00fc\u00df\ndich"});
+  all.axes.push_back({.pose = pose(), .length = 1, .thickness = 0.1});
+  add(all);
+  scenegraph::SceneEntity brief;
+  brief.id = "brief";
+  brief.lifetime_ns = 400_ms;
+  brief.spheres.push_back({.pose = pose(), .size = {1, 2, 3}, .color = {}});
+  add(brief);
+  for (unsigned i = 0; i < seed % 5; ++i) {
+    scenegraph::SceneEntity entity;
+    entity.id = "few" + std::to_string(random.index(8));
+    entity.marker_namespace = "few";
+    entity.cubes.resize(1 + random.index(3), {.pose = pose(), .size = {1, 1, 1}, .color = {}});
+    add(entity);
+  }
+  builder.at(log_ns, std::move(scene));
+}
+
+void addNoMarkers(DatasetBuilder& builder, std::int64_t log_ns, const std::string& frame) {
+  scenegraph::SceneEntities scene;
+  for (const char* const id : {"all", "brief"}) {
+    scenegraph::SceneEntity entity;
+    entity.id = id;
+    entity.frame_id = frame;
+    scene.steps.push_back({false, scene.entities.size()});
+    scene.entities.push_back(std::move(entity));
+  }
+  scene.deletions.push_back({.type = scenegraph::SceneEntityDeletion::Type::All,
+                             .stamp = {std::numeric_limits<std::int64_t>::max()},
+                             .id = "",
+                             .marker_namespace = "few"});
+  scene.steps.push_back({true, 0});
+  builder.at(log_ns, std::move(scene));
+}
+
 }  // namespace
 
 std::vector<LayerCase> layerCases() {
@@ -210,7 +292,8 @@ std::vector<LayerCase> layerCases() {
           {.type = "poses", .add = addPoses, .addEmpty = addEmptyPoses},
           {.type = "depth_image", .add = addDepthImage, .addEmpty = addEmptyDepthImage},
           {.type = "robot_model", .add = addRobot, .addEmpty = addEmptyRobot},
-          {.type = "voxel_grid", .add = addVoxels, .addEmpty = addEmptyVoxels}};
+          {.type = "voxel_grid", .add = addVoxels, .addEmpty = addEmptyVoxels},
+          {.type = "markers", .add = addMarkers, .addEmpty = addNoMarkers}};
 }
 
 std::span<const scenegraph::LayerType> typesUnderTest() { return nodes::layerTypes(); }

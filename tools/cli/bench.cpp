@@ -166,6 +166,7 @@ Result<void> runBench(const BenchOptions& options) {
   benchClouds(results);
   benchCodecs(results);
   benchGrids(results);
+  benchMarkers(results);
   benchRobot(results);
   benchVoxels(results);
   benchPoses(results);

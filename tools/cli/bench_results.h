@@ -56,6 +56,8 @@ void benchVoxels(std::vector<BenchResult>& results);
 void benchPoses(std::vector<BenchResult>& results);
 /// Scans, depth images and grid maps beside memory copy; ticks of a view among 10 000 patches.
 void benchSensors(std::vector<BenchResult>& results);
+/// Ticks of a topic of markers of which few change.
+void benchMarkers(std::vector<BenchResult>& results);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
 

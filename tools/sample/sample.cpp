@@ -27,6 +27,7 @@ std::vector<std::unique_ptr<Topic>> makeTopics(const Stage& stage, const SampleO
   topics.push_back(makeHeightMap(stage));
   topics.push_back(makeVoxels(stage));
   topics.push_back(makeMap(stage));
+  topics.push_back(makeMarkers(stage));
   topics.push_back(makeMapUpdates(stage));
   topics.push_back(makeDepthCameraInfo(stage));
   topics.push_back(makeDepthImages(stage));

@@ -42,6 +42,7 @@ class Topic {
                                                          std::string_view format);
 [[nodiscard]] std::unique_ptr<Topic> makeDepthImages(const Stage& stage);
 [[nodiscard]] std::unique_ptr<Topic> makeDepthCameraInfo(const Stage& stage);
+[[nodiscard]] std::unique_ptr<Topic> makeMarkers(const Stage& stage);
 [[nodiscard]] std::unique_ptr<Topic> makeMap(const Stage& stage);
 [[nodiscard]] std::unique_ptr<Topic> makeMapUpdates(const Stage& stage);
 [[nodiscard]] std::unique_ptr<Topic> makeScanner(const Stage& stage);

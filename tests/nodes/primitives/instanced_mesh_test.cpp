@@ -7,6 +7,7 @@
 #include <limits>
 #include <osgDB/ReadFile>
 
+#include "scenegraph/buffer_patches.h"
 #include "scenegraph/export/osgt_export.h"
 #include "tests/nodes/scene_picture.h"
 #include "tests/support/plain_viewer.h"
@@ -95,6 +96,36 @@ TEST_F(InstancedPicture, DrawsTheChangedCopiesAfterACommit) {
   boxes.resize(0);
   boxes.commit();
   EXPECT_EQ(boxes.node().getNodeMask(), 0U);
+}
+
+TEST_F(InstancedPicture, UploadsOnlyWhatChanged) {
+  const osg::ref_ptr<osg::Group> root = new osg::Group;
+  scenegraph::BufferPatches::hangOn(*root);
+  InstancedMesh boxes(nodes::boxMesh(), "boxes");
+  root->addChild(&boxes.node());
+  const auto show = [&] {
+    const auto picture = renderer_->render(*root, fromAbove(), {.width = 200, .height = 200, .background = kBlack});
+    EXPECT_TRUE(picture) << picture.error().message;
+    return scenegraph::toBytes(*picture);
+  };
+  boxes.resize(10'000);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    boxes.set(i, std::array{at(-9, -9, glm::dvec3(1), kRed)});
+  }
+  boxes.commit();
+  EXPECT_EQ(drawnPixels(show()), 100);
+  EXPECT_EQ(scenegraph::BufferPatches::find(*root)->uploadedBytes(), 0U) << "at first all goes the ordinary way";
+  for (const std::size_t i : {7U, 5000U, 9999U}) {
+    boxes.set(i, std::array{at(static_cast<double>(i) / 1000.0 - 5.0, 5, glm::dvec3(0.5), kGreen)});
+  }
+  boxes.commit();
+  EXPECT_EQ(drawnPixels(show()), 100 + 3 * 25);
+  EXPECT_EQ(scenegraph::BufferPatches::find(*root)->uploadedBytes(), 3 * sizeof(Instance));
+  EXPECT_EQ(drawnPixels(show()), 100 + 3 * 25);
+  EXPECT_EQ(scenegraph::BufferPatches::find(*root)->uploadedBytes(), 0U);
+  boxes.hide(0, 10'000);
+  boxes.commit();
+  EXPECT_EQ(drawnPixels(show()), 0);
 }
 
 TEST_F(InstancedPicture, TapersFrustumsAtEitherEnd) {

@@ -78,7 +78,8 @@ TEST_F(SampleFile, HoldsEveryTopicAtItsRate) {
                                                       {"/odom", 11},
                                                       {"/path", 3},
                                                       {"/particles", 3},
-                                                      {"/footprint", 1}};
+                                                      {"/footprint", 1},
+                                                      {"/markers", 5}};
   EXPECT_EQ(counts, expected);
   EXPECT_EQ(statistics.end_time - statistics.start_time, 1'000'000'000U);
   std::uint64_t messages = 0;

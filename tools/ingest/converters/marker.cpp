@@ -123,9 +123,10 @@ void addArrows(const MarkerRow& marker, SceneEntity& out) {
   } else if (!marker.points.empty()) {
     out.arrows.push_back(arrowBetween(marker, marker.points[0], marker.points[1], marker.color));
   } else {
-    const glm::dvec3& scale = marker.scale;  // a primitive's arrow is round: y stands for y and z
-    out.arrows.push_back(
-        {marker.pose, kShaftShare * scale.x, scale.y, kHeadShare * scale.x, kHeadWidths * scale.y, marker.color});
+    const glm::dvec3& scale = marker.scale;
+    const bool is_round = scale.y == scale.z || scale.y == 0.0;
+    out.arrows.push_back({marker.pose, kShaftShare * scale.x, scale.y, kHeadShare * scale.x, kHeadWidths * scale.y,
+                          marker.color, is_round ? 1.0 : scale.z / scale.y});
   }
 }
 

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "nodes/primitives/instance.h"
+#include "scenegraph/objects/scene_entities.h"
+
+namespace stillframe::nodes {
+
+/// What is drawn as copies of one mesh. An arrow is two frustums, a set of axes three.
+enum class ShapeKind : std::uint8_t {
+  Box,
+  Sphere,
+  Frustum,
+  Square,  ///< faces the viewer, unlit
+};
+
+/// Shapes that share a draw call, within one frame.
+///
+/// Matrices are floats relative to the middle of a cell of the frame, kCell_m wide: 0.1 mm is the largest error.
+struct ShapeBatchKey {
+  static constexpr double kCell_m = 4096.0;
+
+  ShapeKind kind = ShapeKind::Box;
+  bool is_blended = false;
+  std::array<std::int32_t, 3> cell{};
+
+  [[nodiscard]] glm::dvec3 origin() const { return kCell_m * glm::dvec3(cell[0], cell[1], cell[2]); }
+  friend auto operator<=>(const ShapeBatchKey&, const ShapeBatchKey&) = default;
+};
+
+/// The part of an entity that is in one batch.
+struct ShapeRun {
+  ShapeBatchKey key;
+  std::uint32_t first = 0;  ///< place in the batch, given by SceneHistory
+  std::vector<Instance> instances;
+};
+
+struct EntityShapes {
+  std::vector<ShapeRun> runs;
+  std::uint32_t unsound = 0;    ///< primitives whose numbers are not finite or beyond all reach: not drawn
+  std::uint32_t flat = 0;       ///< drawn with a size of 0 along an axis
+  std::uint32_t invisible = 0;  ///< of alpha 0: not drawn
+};
+
+/// Arrows, cubes, spheres, cylinders, points and axes of an entity. `use_cells` false: all in the cell about the
+/// frame's origin, at a float's precision. Any thread.
+[[nodiscard]] EntityShapes shapesOf(const scenegraph::SceneEntity& entity, bool use_cells = true);
+
+/// The pose with its rotation normalised; all zero stands for none, as RViz reads it.
+[[nodiscard]] tf::RigidTransform soundPose(const tf::RigidTransform& pose);
+
+}  // namespace stillframe::nodes

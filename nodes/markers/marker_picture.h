@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <osg/BoundingBox>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nodes/markers/frame_parts.h"
+#include "nodes/markers/markers_settings.h"
+#include "nodes/markers/scene_state.h"
+#include "nodes/text/text_maker.h"
+#include "scenegraph/frame_graph.h"
+
+namespace stillframe::nodes {
+
+/// The nodes of one topic's entities, beneath all the frames they name.
+///
+/// show() writes what differs from the state shown before, in place, and what is drawn does not depend on that state.
+/// GUI thread.
+class MarkerPicture {
+ public:
+  MarkerPicture(scenegraph::FrameGraph& frames, std::string name);
+  ~MarkerPicture();
+
+  void show(std::shared_ptr<const SceneState> state, const MarkersSettings& settings);
+  /// The models to load; and those that were. Call after show().
+  [[nodiscard]] WantedModels wantedModels() const;
+  void setModels(const std::shared_ptr<const ModelSet>& models);
+  /// Why the first of the models that failed did.
+  [[nodiscard]] std::optional<scenegraph::Status> modelFailure() const;
+  /// Draws nothing and holds no frame.
+  void clear();
+
+  struct Counts {
+    std::uint64_t entities = 0;    ///< drawn, as far as they have a place
+    std::uint64_t primitives = 0;  ///< of these
+    std::uint64_t hidden = 0;      ///< entities in namespaces that are switched off
+    std::uint64_t draw_calls = 0;
+    std::uint64_t left_out = 0;  ///< lines, triangles, texts (RestParts)
+    std::uint64_t failed_models = 0;
+  };
+  [[nodiscard]] Counts counts() const;
+  /// Of the entities that are there, drawn or not.
+  [[nodiscard]] std::set<std::string> namespaces() const;
+  /// Frames that something is drawn in, in the order of their names.
+  [[nodiscard]] std::vector<std::string> frames() const;
+  [[nodiscard]] osg::BoundingBoxd boxIn(const std::string& frame) const;
+  /// Log time of the oldest entity drawn in that frame that is not frame-locked.
+  [[nodiscard]] std::optional<tf::TimePoint> oldestFree(const std::string& frame) const;
+
+ private:
+  struct Change {
+    std::size_t slot = 0;
+    const LiveEntity* before = nullptr;
+    const LiveEntity* after = nullptr;
+  };
+  FrameParts& partsOf(const std::string& frame);
+  void count(const LiveEntity* entity, bool is_there);
+  [[nodiscard]] bool isShown(const LiveEntity& entity) const;
+  std::set<std::pair<std::string, ShapeBatchKey>> openBatches(const SceneState& state);
+  void writeShapes(const LiveEntity& entity) const;
+  void dropEmptyFrames();
+
+  scenegraph::FrameGraph& frame_graph_;
+  std::string name_;
+  TextMaker texts_;
+  MarkersSettings settings_;
+  std::shared_ptr<const SceneState> shown_;
+  std::map<std::string, std::unique_ptr<FrameParts>> parts_;
+  std::map<std::string, std::uint64_t> namespaces_;
+  std::map<std::string, std::map<std::int64_t, std::uint64_t>> free_;  // by frame and log time: how many
+  std::uint64_t entities_ = 0;
+  std::uint64_t primitives_ = 0;
+  std::uint64_t hidden_ = 0;
+};
+
+}  // namespace stillframe::nodes

@@ -1,0 +1,192 @@
+#include "nodes/markers/markers_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "nodes/osg_math.h"
+#include "scenegraph/placement.h"
+
+namespace stillframe::nodes {
+
+using scenegraph::Status;
+using scenegraph::StatusLevel;
+
+std::unique_ptr<scenegraph::Layer> MarkersLayer::create(std::string_view topic) {
+  return std::make_unique<MarkersLayer>(topic);
+}
+
+void MarkersLayer::attach(const scenegraph::LayerContext& context) {
+  context_.emplace(context);
+  tracker_.emplace(context, topic_);
+  picture_.emplace(context.frames, topic_);
+  shelf_.emplace(context);
+}
+
+void MarkersLayer::detach() {
+  if (context_) {
+    clear();
+  }
+  tracker_.reset();
+  picture_.reset();
+  shelf_.reset();
+  context_.reset();
+}
+
+void MarkersLayer::setVisible(bool visible) {
+  visible_ = visible;
+  if (!visible && context_) {
+    clear();
+  }
+}
+
+void MarkersLayer::clear() {
+  tracker_->reset();
+  picture_->clear();
+  status_ = {};
+  bounds_.init();
+}
+
+void MarkersLayer::update(const scenegraph::Tick& tick) {
+  if (!context_ || !visible_) {
+    return;
+  }
+  tracker_->update(tick.time);
+  if (tracker_->product() != nullptr) {
+    picture_->show(tracker_->product(), settings_);
+    shelf_->want(picture_->wantedModels());
+    picture_->setModels(shelf_->models());
+  } else {
+    picture_->clear();
+  }
+  bounds_.init();
+  for (const std::string& frame : picture_->frames()) {
+    const osg::BoundingBoxd box = picture_->boxIn(frame);
+    const auto fixed_from_frame = context_->frames.fixedFromFrame(frame);
+    for (unsigned i = 0; fixed_from_frame && box.valid() && i < 8; ++i) {
+      const osg::Vec3d corner = box.corner(i);
+      bounds_.expandBy(toOsg(tf::transformPoint(*fixed_from_frame, {corner.x(), corner.y(), corner.z()})));
+    }
+  }
+  status_ = judge(tick.time);
+}
+
+Status MarkersLayer::judge(tf::TimePoint time) const {
+  const std::vector<std::string> frames = picture_->frames();
+  const std::string* first = nullptr;
+  tf::LookupFailure failure;
+  std::size_t failed = 0;
+  for (const std::string& frame : frames) {
+    const auto fixed_from_frame = context_->frames.fixedFromFrame(frame);
+    if (!fixed_from_frame && failed++ == 0) {
+      first = &frame;
+      failure = fixed_from_frame.error();
+    }
+  }
+  if (first != nullptr) {
+    Status status = scenegraph::placementStatus(context_->frames, *first, failure);
+    if (frames.size() > 1) {
+      status.message = std::to_string(failed) + " of the " + std::to_string(frames.size()) + " frames of '" + topic_ +
+                       "' cannot be placed: " + status.message;
+    }
+    return status;
+  }
+  return tracker_->status().level != StatusLevel::Ok ? tracker_->status() : remark(time);
+}
+
+Status MarkersLayer::remark(tf::TimePoint time) const {
+  const SceneState& state = *tracker_->product();
+  const std::string base = "'" + topic_ + "': ";
+  const auto plural = [](std::uint64_t count, const std::string& what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+  };
+  if (state.refused > 0) {
+    return {StatusLevel::Warn, "TooManyMarkers",
+            base + plural(state.refused, "marker") +
+                " found no room: all together are beyond 1 GiB, or lie in more frames than can be drawn"};
+  }
+  if (!state.faults.empty()) {
+    return {StatusLevel::Warn, "MarkersRefused",
+            base + (state.faults.size() == 1
+                        ? state.faults.front()
+                        : std::to_string(state.faults.size()) +
+                              " markers of the newest message are not drawn; the first: " + state.faults.front())};
+  }
+  const MarkerPicture::Counts counts = picture_->counts();
+  if (state.totals.unsound + counts.left_out > 0) {
+    return {StatusLevel::Warn, "PrimitivesLeftOut",
+            base + plural(state.totals.unsound + counts.left_out, "primitive") +
+                " are left out: poses or sizes that are not finite or beyond reach, wrong indices, or more than " +
+                std::to_string(RestParts::kMostTexts) + " texts"};
+  }
+  if (const auto failure = picture_->modelFailure()) {
+    return {StatusLevel::Warn, failure->code,
+            base + plural(counts.failed_models, "model") + " not drawn: " + failure->message};
+  }
+  if (state.totals.flat > 0) {
+    return {StatusLevel::Info, "ZeroScale",
+            base + plural(state.totals.flat, "primitive") + " drawn flat, for a scale of 0 along an axis"};
+  }
+  if (state.totals.invisible > 0) {
+    return {StatusLevel::Info, "Transparent",
+            base + plural(state.totals.invisible, "primitive") + " cannot be seen, for an alpha of 0"};
+  }
+  if (state.undecodable > 0) {
+    return {StatusLevel::Info, "UndecodableMessages",
+            base + plural(state.undecodable, "earlier message") + " could not be read; what they did is not shown"};
+  }
+  if (const auto moved = movedFrame(time)) {
+    return {StatusLevel::Info, "NotFrameLocked",
+            base + "markers that are not frame-locked are carried along with '" + *moved +
+                "' all the same, which has moved since their message"};
+  }
+  return {};
+}
+
+std::optional<std::string> MarkersLayer::movedFrame(tf::TimePoint time) const {
+  const SceneState& state = *tracker_->product();
+  if (state.totals.free_in_fixed == 0) {
+    return std::nullopt;
+  }
+  const tf::TransformBuffer& buffer = context_->frames.buffer();
+  for (const std::string& frame : picture_->frames()) {
+    const auto since = picture_->oldestFree(frame);
+    const auto now = context_->frames.fixedFromFrame(frame);
+    if (!since || !now || frame == context_->frames.fixedFrame() || *since >= time) {
+      continue;
+    }
+    const auto then = buffer.tryLookupTransform(context_->frames.fixedFrame(), frame, *since);
+    if (then && (glm::distance(then->translation, now->translation) > 1e-3 ||
+                 std::abs(glm::dot(then->rotation, now->rotation)) < 1.0 - 1e-7)) {
+      return frame;
+    }
+  }
+  return std::nullopt;
+}
+
+scenegraph::LayerCounts MarkersLayer::counts() const {
+  const auto counts = picture_ ? picture_->counts() : MarkerPicture::Counts{};
+  return {{"entities", counts.entities},
+          {"primitives", counts.primitives},
+          {"hidden", counts.hidden},
+          {"draw_calls", counts.draw_calls}};
+}
+
+std::string MarkersLayer::sourceFrame() const {
+  const auto frames = picture_ ? picture_->frames() : std::vector<std::string>{};
+  return frames.empty() ? "" : frames.front();
+}
+
+std::vector<scenegraph::SettingSpec> MarkersLayer::settingSpecs() const {
+  return markersSettingSpecs(settings_, picture_ ? picture_->namespaces() : std::set<std::string>{});
+}
+
+scenegraph::SettingTexts MarkersLayer::settings() const {
+  return markersSettingTexts(settings_, picture_ ? picture_->namespaces() : std::set<std::string>{});
+}
+
+std::expected<void, scenegraph::SettingError> MarkersLayer::applySettings(const scenegraph::SettingTexts& texts) {
+  return applyMarkersSettings(texts, settings_);
+}
+
+}  // namespace stillframe::nodes

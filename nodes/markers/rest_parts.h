@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <osg/BoundingBox>
+#include <osg/Group>
+#include <osg/MatrixTransform>
+#include <osg/ref_ptr>
+#include <string>
+#include <vector>
+
+#include "nodes/lines/line_drawable.h"
+#include "nodes/markers/model_shelf.h"
+#include "nodes/mesh_drawing/mesh_arrays.h"
+#include "nodes/primitives/triangle_drawable.h"
+#include "nodes/text/text_maker.h"
+#include "scenegraph/objects/scene_entities.h"
+
+namespace stillframe::nodes {
+
+/// Lines, triangles and texts of the entities in one frame.
+///
+/// Lines share a draw call, triangles another, translucent ones two more; a change among them makes them anew, at the
+/// cost of all lines and triangles in the frame. A text is a node of its own and changes alone. GUI thread.
+class RestParts {
+ public:
+  /// Texts beyond are left out: a draw call each.
+  static constexpr std::size_t kMostTexts = 5000;
+
+  RestParts(const std::string& name, TextMaker& texts);
+
+  /// What the entity in `slot` has; nullptr: nothing (any more).
+  void set(std::size_t slot, std::shared_ptr<const scenegraph::SceneEntity> entity);
+  void setLook(double opacity, bool shows_texts);
+  /// Call once after changes.
+  void commit();
+  /// The meshes that there are by now; models without one are not drawn.
+  void setModels(std::shared_ptr<const ModelSet> models);
+  /// Adds those that the entities name.
+  void collectModels(WantedModels& wanted) const;
+  /// Adds the nodes to draw, in an order that does not depend on what came before.
+  void list(std::vector<osg::Node*>& nodes) const;
+
+  [[nodiscard]] bool isEmpty() const noexcept { return entities_.empty(); }
+  /// In the frame; invalid for nothing.
+  [[nodiscard]] const osg::BoundingBoxd& box() const noexcept { return box_; }
+  [[nodiscard]] std::size_t drawCalls() const noexcept;
+  /// Lines, triangles or texts left out, as their numbers make no sense or there are too many.
+  [[nodiscard]] std::size_t leftOut() const noexcept { return unsound_ + texts_left_out_; }
+  /// Why the first model that is not drawn is not, and how many there are; only those whose loading has ended.
+  [[nodiscard]] std::size_t failedModels() const noexcept { return failed_models_; }
+  [[nodiscard]] const std::optional<scenegraph::Status>& modelFailure() const noexcept { return model_failure_; }
+
+ private:
+  struct Strokes {
+    osg::ref_ptr<osg::MatrixTransform> node;
+    std::unique_ptr<LineDrawable> lines;
+    bool is_drawn = false;
+  };
+  void makeLines();
+  void makeTriangles();
+  void makeModels();
+  void makeTexts(std::size_t slot);
+  void dropTexts(std::size_t slot);
+
+  TextMaker& text_maker_;
+  std::map<std::size_t, std::shared_ptr<const scenegraph::SceneEntity>> entities_;
+  std::array<Strokes, 2> strokes_;  // opaque, translucent
+  std::array<std::unique_ptr<TriangleDrawable>, 2> surfaces_;
+  struct Texts {
+    osg::ref_ptr<osg::Group> node;
+    osg::BoundingBoxd box;
+    std::size_t count = 0;
+  };
+  std::map<std::size_t, Texts> texts_;
+  std::size_t text_count_ = 0;
+  bool has_new_lines_ = false;
+  bool has_new_triangles_ = false;
+  bool has_new_look_ = true;
+  double opacity_ = 1.0;
+  bool shows_texts_ = true;
+  std::size_t unsound_lines_ = 0;
+  std::size_t unsound_triangles_ = 0;
+  std::size_t unsound_ = 0;
+  std::size_t texts_left_out_ = 0;
+  std::size_t unsound_models_ = 0;
+  std::size_t failed_models_ = 0;
+  std::optional<scenegraph::Status> model_failure_;
+  bool has_new_models_ = false;
+  std::shared_ptr<const ModelSet> models_;
+  osg::ref_ptr<osg::Group> model_node_ = new osg::Group;
+  MeshState model_state_;
+  osg::BoundingBoxd models_box_;
+  osg::BoundingBoxd lines_box_;
+  osg::BoundingBoxd box_;
+};
+
+}  // namespace stillframe::nodes

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <osg/Node>
+#include <osg/StateSet>
+#include <osg/ref_ptr>
+#include <osgText/Font>
+#include <string_view>
+
+#include "scenegraph/settings.h"
+
+namespace stillframe::nodes {
+
+/// How a text stands in the picture.
+struct TextStyle {
+  double height = 16.0;  ///< of a line; pixels or metres
+  bool is_in_pixels = true;
+  bool faces_viewer = true;  ///< else in the plane z = 0, running along +x
+  bool is_centred = false;   ///< about the origin; else with its lower left corner there
+  scenegraph::Color color;
+};
+
+/// Makes texts: UTF-8, any number of lines, sharp up to the height of its glyphs in their texture.
+///
+/// The font is looked for with the first text: DejaVu or Liberation where Debian installs them, else the one built into
+/// OSG. GUI thread.
+class TextMaker {
+ public:
+  /// Height of the glyphs of texts in metres, which may come near; OSG's own, 32, for texts in pixels.
+  static constexpr unsigned kGlyphTexels = 96;
+  /// What is drawn of a text at most, in bytes.
+  static constexpr std::size_t kMostBytes = 4096;
+
+  /// About the origin of its parent. Never culled: its extent depends on the camera.
+  [[nodiscard]] osg::ref_ptr<osg::Node> make(std::string_view utf8, const TextStyle& style);
+
+ private:
+  bool has_looked_ = false;
+  osg::ref_ptr<osgText::Font> font_;
+  osg::ref_ptr<osg::StateSet> state_;
+};
+
+}  // namespace stillframe::nodes

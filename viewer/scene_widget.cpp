@@ -13,6 +13,9 @@
 namespace stillframe::viewer {
 namespace {
 
+constexpr double kPointBudgetMs = 33.0;  // of a frame, so that the camera follows the hand with any cloud
+constexpr int kProgressMargin = 6;
+
 QLabel* makeOverlay(QWidget* parent) {
   auto* label = new QLabel(parent);
   label->setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -27,6 +30,7 @@ SceneWidget::SceneWidget(QWidget* parent)
       gate_([this] { applyTick(); }),
       message_(makeOverlay(this)),
       hover_label_(makeOverlay(this)),
+      progress_label_(makeOverlay(this)),
       help_(new HelpOverlay(this)) {
   clock_.start();
   setFormat(glFormat());
@@ -37,8 +41,10 @@ SceneWidget::SceneWidget(QWidget* parent)
   message_->setWordWrap(true);
   message_->setMargin(24);
   message_->setStyleSheet(QStringLiteral("color: #e8e8e8; background: #202226;"));
-  hover_label_->setStyleSheet(
-      QStringLiteral("color: white; background: rgba(20, 22, 26, 200); border-radius: 3px; padding: 2px 5px;"));
+  for (QLabel* const label : {hover_label_, progress_label_}) {
+    label->setStyleSheet(
+        QStringLiteral("color: white; background: rgba(20, 22, 26, 200); border-radius: 3px; padding: 2px 5px;"));
+  }
 }
 
 SceneWidget::~SceneWidget() {
@@ -143,15 +149,31 @@ void SceneWidget::paintGL() {
   }
   pipeline_->setView(view);
   pipeline_->setBackground(background_);
+  pipeline_->setPointBudget(kPointBudgetMs);
   const auto drawn = pipeline_->render(defaultFramebufferObject(), qRound(size_px.width()), qRound(size_px.height()));
   showProblem(drawn ? QString()
                     : tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(drawn.error().message)));
   ++frames_drawn_;
-  if (keys_.isWalking() || camera_.isMoving(now())) {
+  showProgress();
+  if (keys_.isWalking() || camera_.isMoving(now()) || pointShare() < 1.0) {
     update();
   }
   for (; logged_messages_ < debug_log_.messages().size(); ++logged_messages_) {
     qCWarning(glLog).noquote() << QString::fromStdString(debug_log_.messages()[logged_messages_]);
+  }
+}
+
+double SceneWidget::pointShare() const {
+  return pipeline_ != nullptr && pipeline_->pointProgress() ? pipeline_->pointProgress()->share : 1.0;
+}
+
+void SceneWidget::showProgress() {
+  const double share = pointShare();
+  progress_label_->setVisible(share < 1.0);
+  if (share < 1.0) {
+    progress_label_->setText(tr("%1 % of the points, refining").arg(100.0 * share, 0, 'g', 2));
+    progress_label_->adjustSize();
+    progress_label_->move(kProgressMargin, height() - progress_label_->height() - kProgressMargin);
   }
 }
 

@@ -86,6 +86,8 @@ class SceneWidget : public QOpenGLWidget {
   void setEffects(const scenegraph::ViewEffects& effects);
   [[nodiscard]] const scenegraph::ViewEffects& effects() const noexcept { return effects_; }
 
+  /// Share of the points that the last frame has drawn; below 1 the view goes on by itself until all are.
+  [[nodiscard]] double pointShare() const;
   /// Frames drawn since the widget was made.
   [[nodiscard]] std::uint64_t framesDrawn() const noexcept { return frames_drawn_; }
   /// OpenGL debug messages so far, over all contexts.
@@ -148,6 +150,7 @@ class SceneWidget : public QOpenGLWidget {
   [[nodiscard]] double now() const { return static_cast<double>(clock_.nsecsElapsed()) * 1e-9; }
   void hover(QPointF position);
   void showProblem(const QString& text);
+  void showProgress();
   [[nodiscard]] double aspect() const;
 
   UpdateGate gate_;
@@ -177,6 +180,7 @@ class SceneWidget : public QOpenGLWidget {
   QMetaObject::Connection context_watch_;
   QLabel* message_ = nullptr;
   QLabel* hover_label_ = nullptr;
+  QLabel* progress_label_ = nullptr;
   HelpOverlay* help_ = nullptr;
   QString hovered_frame_;
 };

@@ -104,6 +104,7 @@ std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const
   }
   pipeline_->setView(view);
   pipeline_->setBackground(options.background);
+  pipeline_->setPointWay(options.points);
   pipeline_->setPostChain(options.post);
   const auto start = std::chrono::steady_clock::now();
   const auto drawn = pipeline_->renderLinear(options.width, options.height);
@@ -113,6 +114,7 @@ std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const
   glFinish();
   statistics_.frame_ms = millisecondsSince(start);
   statistics_.passes = pipeline_->passes();
+  statistics_.points = pipeline_->pointProgress();
   statistics_.samples = pipeline_->samples();
   const auto read_start = std::chrono::steady_clock::now();
   Picture picture = toPicture(pipeline_->readLinear(), options, pipeline_->projectionMatrix());

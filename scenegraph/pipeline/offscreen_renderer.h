@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <expected>
 #include <memory>
+#include <optional>
 #include <osg/Group>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ struct RenderOptions {
   int height = 720;
   Color background{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
   PostChain post = {};
+  PointWay points = PointWay::Auto;  ///< who draws opaque points
 };
 
 /// What the last render() did and took, in milliseconds of wall time with the GPU drained.
@@ -39,7 +41,8 @@ struct FrameStatistics {
   double frame_ms = 0.0;      ///< culling and drawing
   double read_back_ms = 0.0;  ///< from the target into the Picture
   std::vector<std::string> passes;
-  int samples = 1;  ///< of multisampling, a pixel
+  std::optional<PointProgress> points;  ///< where the CPU drew them
+  int samples = 1;                      ///< of multisampling, a pixel
 };
 
 /// Pictures of scene graphs without a window: `stillframe render`, tests, servers. Any one thread.

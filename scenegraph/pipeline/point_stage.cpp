@@ -75,27 +75,25 @@ std::uint32_t PointStage::affordablePasses(std::size_t points, double budget_ms)
   return passes < left ? std::max(static_cast<std::uint32_t>(std::max(passes, 0.0)), 1U) : left;
 }
 
-PointProgress PointStage::draw(osg::Group& root, const osg::Matrixd& eye_from_fixed, const osg::Matrixd& clip_from_eye,
-                               int width_px, int height_px, double budget_ms) {
-  PointCollection collected = collectPoints(root, eye_from_fixed, clip_from_eye, height_px);
-  triangle_->setNodeMask(collected.count > 0 ? ~0U : 0U);
-  if (collected.count == 0) {
+PointProgress PointStage::draw(PointCollection points, int width_px, int height_px, double budget_ms) {
+  triangle_->setNodeMask(points.count > 0 ? ~0U : 0U);
+  if (points.count == 0) {
     batches_.clear();
     arrays_.clear();
     return {};
   }
   const auto start = Clock::now();
-  if (collected.batches != batches_ || raster_.widthPx() != width_px || raster_.heightPx() != height_px) {
-    startAnew(collected.batches, std::move(collected.arrays), width_px, height_px);
+  if (points.batches != batches_ || raster_.widthPx() != width_px || raster_.heightPx() != height_px) {
+    startAnew(points.batches, std::move(points.arrays), width_px, height_px);
   }
-  PointProgress progress{.points = collected.count};
+  PointProgress progress{.points = points.count};
   if (passes_ < kPassesOfSample) {
-    const std::uint32_t more = affordablePasses(collected.count, budget_ms);
+    const std::uint32_t more = affordablePasses(points.count, budget_ms);
     const auto before = Clock::now();
     raster_.draw(batches_, {passes_, passes_ + more});
     passes_ += more;
     progress.raster_ms = milliseconds(Clock::now() - start);
-    const double drawn = static_cast<double>(collected.count) * more / kPassesOfSample;
+    const double drawn = static_cast<double>(points.count) * more / kPassesOfSample;
     constexpr double kNewest = 0.5;  // of the mean: soon right after a change, no slave of one slow frame
     points_per_ms_ += kNewest * (drawn / std::max(milliseconds(Clock::now() - before), 1e-3) - points_per_ms_);
   }
@@ -103,8 +101,7 @@ PointProgress PointStage::draw(osg::Group& root, const osg::Matrixd& eye_from_fi
   const auto drawn = Clock::now();
   resize(width_px, height_px);
   const std::size_t pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-  raster_.resolve(PointShading(batches_, collected.colors),
-                  {reinterpret_cast<std::uint16_t*>(color_->data()), 4 * pixels},
+  raster_.resolve(PointShading(batches_, points.colors), {reinterpret_cast<std::uint16_t*>(color_->data()), 4 * pixels},
                   {reinterpret_cast<float*>(depth_->data()), pixels});
   color_->dirty();
   depth_->dirty();

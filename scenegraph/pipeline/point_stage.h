@@ -35,9 +35,9 @@ class PointStage {
 
   /// What the camera of the scene draws in place of the points: one full-screen step, the first of all.
   [[nodiscard]] osg::Node& picture() noexcept { return *triangle_; }
-  /// Draws the points beneath `root` that are not masked off, as many as the time for it allows, and a few always.
-  PointProgress draw(osg::Group& root, const osg::Matrixd& eye_from_fixed, const osg::Matrixd& clip_from_eye,
-                     int width_px, int height_px, double budget_ms = std::numeric_limits<double>::infinity());
+  /// Draws these points, as many as the time for it allows, and a few always. Without points there is no picture.
+  PointProgress draw(PointCollection points, int width_px, int height_px,
+                     double budget_ms = std::numeric_limits<double>::infinity());
 
  private:
   void resize(int width_px, int height_px);

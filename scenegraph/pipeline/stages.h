@@ -40,6 +40,10 @@ class Stages {
   void setView(const osg::Matrixd& eye_from_fixed, const glm::dmat4& clip_from_eye, const Color& background);
   /// Takes the values of uniforms from a chain of the same structure.
   void takeParameters(const PostChain& chain);
+  /// The scene's projection, of the present sub-frame.
+  [[nodiscard]] const osg::Matrixd& clipFromEye() const { return scene_camera_->getProjectionMatrix(); }
+  /// Leaves out of the scene what has no bit in common with `mask`.
+  void setCullMask(osg::Node::NodeMask mask) { scene_camera_->setCullMask(mask); }
   /// Frames that one picture takes; each begins with startSubFrame().
   [[nodiscard]] int subFrames() const noexcept { return sub_frames_; }
   void startSubFrame(int index);

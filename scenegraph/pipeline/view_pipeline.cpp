@@ -1,6 +1,7 @@
 #include "scenegraph/pipeline/view_pipeline.h"
 
 #include <glm/gtc/type_ptr.hpp>
+#include <limits>
 #include <optional>
 #include <osg/Camera>
 #include <osg/GLObjects>
@@ -10,13 +11,20 @@
 #include <osgViewer/Viewer>
 
 #include "scenegraph/buffer_patches.h"
+#include "scenegraph/geometry.h"
+#include "scenegraph/pipeline/gl_context_info.h"
 #include "scenegraph/pipeline/gl_target.h"
+#include "scenegraph/pipeline/point_collection.h"
 #include "scenegraph/pipeline/stages.h"
 
 namespace stillframe::scenegraph {
 namespace {
 
 osg::Matrixd toOsg(const glm::dmat4& matrix) { return osg::Matrixd(glm::value_ptr(matrix)); }
+
+/// OpenGL in software takes some 300 ns a point; the CPU, before it draws any, some 10 ns a pixel.
+constexpr double kPointsAPixelThatPay = 1.0 / 30.0;
+constexpr double kMostPixels = 1 << 24;  // at 20 bytes each
 
 }  // namespace
 
@@ -35,6 +43,12 @@ struct ViewPipeline::Impl {
   int width_px = 0;
   int height_px = 0;
   bool presents = false;
+  PointWay point_way = PointWay::Auto;
+  double point_budget_ms = std::numeric_limits<double>::infinity();
+  bool is_software = false;
+  osg::ref_ptr<osg::Group> content;         // the root, and the picture of the points
+  std::unique_ptr<PointStage> point_stage;  // none before there are points for it
+  std::optional<PointProgress> point_progress;
   bool is_chain_new = false;  // setPostChain() needs no context, the next draw() has one
 
   [[nodiscard]] unsigned contextId() const { return window->getState()->getContextID(); }
@@ -42,12 +56,15 @@ struct ViewPipeline::Impl {
   std::expected<void, Status> makeStages();
   void dropStages();
   void adoptGlState();
+  void drawPoints();
   [[nodiscard]] GLuint textureId(const std::string& target) const;
   std::expected<void, Status> checkTargets() const;
   std::expected<void, Status> draw(std::uint32_t output_fbo, int width, int height, bool present);
 };
 
 void ViewPipeline::Impl::makeViewer() {
+  const auto info = inspectCurrentContext();
+  is_software = info && info->is_software;
   viewer = new osgViewer::Viewer;
   viewer->setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
   viewer->setUseConfigureAffinity(false);  // OSG 3.6 would pin this thread, and all it starts, to the first core
@@ -70,7 +87,7 @@ void ViewPipeline::Impl::makeViewer() {
 
 std::expected<void, Status> ViewPipeline::Impl::makeStages() {
   const int max_samples = chain.msaa_samples > 1 ? gl::maxSamples() : 1;
-  auto made = Stages::make(*root, chain,
+  auto made = Stages::make(*content, chain,
                            {.width_px = width_px,
                             .height_px = height_px,
                             .max_samples = max_samples,
@@ -80,7 +97,6 @@ std::expected<void, Status> ViewPipeline::Impl::makeStages() {
     return std::unexpected(made.error());
   }
   stages = std::move(*made);
-  passes = stages->passes();
   viewer->setSceneData(&stages->group());
   return {};
 }
@@ -127,6 +143,32 @@ std::expected<void, Status> ViewPipeline::Impl::checkTargets() const {
                                     std::to_string(status) + ")"});
 }
 
+/// For the present sub-frame; what is averaged over several is drawn whole.
+void ViewPipeline::Impl::drawPoints() {
+  PointCollection points;
+  const bool may_be_cpu =
+      point_way == PointWay::Cpu || (point_way == PointWay::Auto && is_software && stages->samples() <= 1);
+  if (may_be_cpu) {
+    points = collectPoints(*root, toOsg(view.eye_from_fixed), stages->clipFromEye(), height_px);
+  }
+  const double pixels = static_cast<double>(width_px) * height_px;
+  const bool pays = static_cast<double>(points.count) > pixels * kPointsAPixelThatPay && pixels <= kMostPixels;
+  point_progress.reset();
+  if (points.count > 0 && (point_way == PointWay::Cpu || pays)) {
+    if (point_stage == nullptr) {
+      point_stage = std::make_unique<PointStage>();
+      content->addChild(&point_stage->picture());
+    }
+    const double budget_ms = stages->subFrames() > 1 ? std::numeric_limits<double>::infinity() : point_budget_ms;
+    point_progress = point_stage->draw(std::move(points), width_px, height_px, budget_ms);
+  } else if (point_stage != nullptr) {
+    content->removeChild(&point_stage->picture());
+    point_stage->picture().releaseGLObjects(window->getState());
+    point_stage.reset();
+  }
+  stages->setCullMask(point_progress ? ~kOpaquePoints : ~osg::Node::NodeMask{0});
+}
+
 std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, int width, int height, bool present) {
   if (width <= 0 || height <= 0) {
     passes.clear();
@@ -162,15 +204,19 @@ std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, i
   }
   for (int i = 0; i < stages->subFrames(); ++i) {
     stages->startSubFrame(i);
+    drawPoints();
     gl::bindFramebuffer(output_fbo);
     viewer->frame();
   }
   gl::bindFramebuffer(output_fbo);
+  passes = stages->passes();
   return remade ? checkTargets() : std::expected<void, Status>{};
 }
 
 ViewPipeline::ViewPipeline(const osg::ref_ptr<osg::Group>& root) : impl_(std::make_unique<Impl>()) {
   impl_->root = root;
+  impl_->content = new osg::Group;
+  impl_->content->addChild(root);
 }
 
 ViewPipeline::~ViewPipeline() { releaseGl(); }
@@ -189,6 +235,12 @@ void ViewPipeline::setPostChain(PostChain chain) {
   }
   impl_->chain = std::move(chain);
 }
+
+void ViewPipeline::setPointWay(PointWay way) { impl_->point_way = way; }
+
+void ViewPipeline::setPointBudget(double budget_ms) { impl_->point_budget_ms = budget_ms; }
+
+const std::optional<PointProgress>& ViewPipeline::pointProgress() const noexcept { return impl_->point_progress; }
 
 std::expected<void, Status> ViewPipeline::render(std::uint32_t output_fbo, int width_px, int height_px) {
   return impl_->draw(output_fbo, width_px, height_px, true);
@@ -216,7 +268,7 @@ void ViewPipeline::releaseGl() {
   if (impl_->viewer == nullptr) {
     return;
   }
-  impl_->root->releaseGLObjects(impl_->window->getState());
+  impl_->content->releaseGLObjects(impl_->window->getState());
   impl_->dropStages();
   osg::deleteAllGLObjects(impl_->contextId());
   osg::flushAllDeletedGLObjects(impl_->contextId());

@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <expected>
 #include <memory>
+#include <optional>
 #include <osg/Group>
 #include <osg/ref_ptr>
 #include <string>
 #include <vector>
 
 #include "scenegraph/camera/camera.h"
+#include "scenegraph/pipeline/point_stage.h"
 #include "scenegraph/pipeline/post_chain.h"
 #include "scenegraph/settings.h"
 #include "scenegraph/status.h"
@@ -20,6 +22,9 @@ struct LinearFrame {
   std::vector<float> rgba;   ///< scene-linear, 4 a pixel, of the last pass before present
   std::vector<float> depth;  ///< reverse-Z of the scene pass, 0 where nothing was drawn
 };
+
+/// Who draws opaque points.
+enum class PointWay : std::uint8_t { Auto, OpenGl, Cpu };
 
 /// Draws a scene graph into targets of its own and, when asked, on to a framebuffer of somebody else.
 ///
@@ -42,6 +47,15 @@ class ViewPipeline {
   /// What happens between scene and present. A chain that differs from the one before in the values of uniforms alone
   /// costs nothing; any other makes targets and shaders anew.
   void setPostChain(PostChain chain);
+
+  /// How opaque points are drawn: by OpenGL, or on the CPU and put into its picture. Auto takes the CPU where OpenGL is
+  /// itself software, no multisampling is asked for, and the points are so many that it pays. The picture is the same.
+  void setPointWay(PointWay way);
+  /// Time for the points of one frame, where they are drawn on the CPU; what it does not reach for is drawn by the next
+  /// frames, as long as nothing else changes. At first there is no limit.
+  void setPointBudget(double budget_ms);
+  /// Of the last render; nullopt: OpenGL drew the points, all of them.
+  [[nodiscard]] const std::optional<PointProgress>& pointProgress() const noexcept;
 
   /// Draws one frame and presents it in `output_fbo`, over the whole of it. Sizes in device pixels; 0 draws nothing.
   /// Errors: "TargetIncomplete", the driver cannot make targets of this size; "UnknownInput", a pass reads what nobody

@@ -308,11 +308,11 @@ void PointRaster::resolve(const PointShading& shading, std::span<std::uint16_t> 
         std::fill_n(out, 4, std::uint16_t{0});
         continue;
       }
-      const glm::vec3 color = shading.linearColor(PointKey::point(key));
+      const glm::vec4 color = shading.linearColor(PointKey::point(key));
       out[0] = halfFromFloat(color.r);
       out[1] = halfFromFloat(color.g);
       out[2] = halfFromFloat(color.b);
-      out[3] = kOne;
+      out[3] = color.a > 0.0F ? kOne : std::uint16_t{0};
     }
   };
   threads_->arena.execute(

@@ -81,7 +81,7 @@ glm::vec3 PointShading::fromTable(const Batch& batch, float t) {
   return glm::mix(batch.table[below], batch.table[below + 1], x - static_cast<float>(below));
 }
 
-glm::vec3 PointShading::linearColor(std::uint32_t number) const {
+glm::vec4 PointShading::linearColor(std::uint32_t number) const {
   const auto after = std::ranges::upper_bound(batches_, number, {}, &Batch::first);
   const Batch& batch = *std::prev(after);
   const std::size_t index = number - batch.first;
@@ -91,20 +91,21 @@ glm::vec3 PointShading::linearColor(std::uint32_t number) const {
     case PointColors::Mode::Rgb: {
       const std::uint8_t* const bytes = &batch.colors.rgba[4 * index];
       const std::array<float, 256>& linear = linearOfBytes();
-      return {linear[bytes[0]], linear[bytes[1]], linear[bytes[2]]};
+      return {linear[bytes[0]], linear[bytes[1]], linear[bytes[2]], 0.0F};
     }
     case PointColors::Mode::Value: {
       const float value = batch.colors.values[index];
-      return value < kLargestMissing ? batch.missing
-                                     : fromTable(batch, value * batch.colors.value_map.x + batch.colors.value_map.y);
+      return {value < kLargestMissing ? batch.missing
+                                      : fromTable(batch, value * batch.colors.value_map.x + batch.colors.value_map.y),
+              1.0F};
     }
     case PointColors::Mode::Axis: {
       const float* const point = &batch.positions[3 * index];
       const glm::vec4& axis = batch.colors.axis_map;
-      return fromTable(batch, axis.x * point[0] + axis.y * point[1] + axis.z * point[2] + axis.w);
+      return {fromTable(batch, axis.x * point[0] + axis.y * point[1] + axis.z * point[2] + axis.w), 1.0F};
     }
   }
-  return batch.flat;
+  return {batch.flat, 1.0F};
 }
 
 }  // namespace stillframe::scenegraph

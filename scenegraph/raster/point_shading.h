@@ -33,8 +33,9 @@ class PointShading {
  public:
   PointShading(std::span<const PointBatch> batches, std::span<const PointColors> colors);
 
-  /// Linear red, green, blue of a point by its number in the raster.
-  [[nodiscard]] glm::vec3 linearColor(std::uint32_t number) const;
+  /// Linear red, green, blue of a point by its number in the raster; and in alpha what the shader writes there, the
+  /// share of it that tone mapping leaves alone: 0 of the points' own colours, 1 of colours that a legend explains.
+  [[nodiscard]] glm::vec4 linearColor(std::uint32_t number) const;
 
  private:
   struct Batch {

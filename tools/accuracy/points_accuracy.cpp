@@ -146,7 +146,7 @@ class Subject {
 
  private:
   static constexpr scenegraph::RenderOptions kOptions{
-      .width = kWidthPx, .height = kHeightPx, .background = {0, 0, 0, 1}};
+      .width = kWidthPx, .height = kHeightPx, .background = {0, 0, 0, 1}, .points = scenegraph::PointWay::OpenGl};
   scenegraph::OffscreenRenderer& renderer_;
   osg::Group& root_;
   scenegraph::CameraView view_;

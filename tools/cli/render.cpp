@@ -57,6 +57,18 @@ Json effectsJson(const scenegraph::ViewEffects& effects) {
   return json;
 }
 
+/// Who drew the opaque points, and on the CPU how many there are and in what time.
+Json pointsJson(const scenegraph::FrameStatistics& frame) {
+  if (!frame.points) {
+    return {{"rasterizer", "gl"}};
+  }
+  return {{"rasterizer", "cpu"},
+          {"count", frame.points->points},
+          {"share", frame.points->share},
+          {"raster_ms", frame.points->raster_ms},
+          {"resolve_ms", frame.points->resolve_ms}};
+}
+
 Result<void> runRender(const RenderCommandOptions& options) {
   const std::filesystem::path out = options.out;
   if (out.extension() != ".png" && out.extension() != ".exr") {
@@ -88,7 +100,7 @@ Result<void> runRender(const RenderCommandOptions& options) {
                           {static_cast<double>(view->size.width_px), static_cast<double>(view->size.height_px)});
   // An .exr is scene-linear, before the tone curve.
   const scenegraph::RenderOptions render_options{view->size.width_px, view->size.height_px, view->background,
-                                                 is_exr ? effects->linearChain() : effects->chain()};
+                                                 is_exr ? effects->linearChain() : effects->chain(), view->points};
   auto picture = (*renderer)->render(session.scene().root(), session.camera(), render_options);
   if (!picture) {
     return std::unexpected(fileError(options.out, picture.error()));
@@ -115,6 +127,7 @@ Result<void> runRender(const RenderCommandOptions& options) {
                     {"passes", frame.passes},
                     {"effects", effectsJson(*effects)},
                     {"samples", frame.samples},
+                    {"points", pointsJson(frame)},
                     {"layers", layersJson(session.scene())},
                     {"renderer", (*renderer)->context().info().renderer},
                     {"problems", problemsJson(dataset.problems())}};

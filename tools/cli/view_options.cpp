@@ -13,6 +13,15 @@ Result<scenegraph::CameraKind> parseCamera(const std::string& text) {
   return usageError("--camera '" + text + "' is none of orbit, xyorbit, topdown, fly");
 }
 
+Result<scenegraph::PointWay> parsePointWay(const std::string& text) {
+  if (text == "auto" || text == "gl" || text == "cpu") {
+    return text == "gl"    ? scenegraph::PointWay::OpenGl
+           : text == "cpu" ? scenegraph::PointWay::Cpu
+                           : scenegraph::PointWay::Auto;
+  }
+  return usageError("--points '" + text + "' is none of auto, gl, cpu");
+}
+
 Result<std::pair<std::string, scenegraph::FollowMode>> parseFollow(const std::string& text) {
   std::string frame = text;
   scenegraph::FollowMode mode = scenegraph::FollowMode::Pose;
@@ -53,6 +62,10 @@ ViewArguments::ViewArguments(CLI::App& command) {
   command.add_option("--look-at", look_at_, "x,y,z that the eye looks at; default: the middle of the data");
   command.add_option("--fov", fov_, "Vertical field of view in degrees, 1 to 170")->capture_default_str();
   command.add_option("--size", size_, "WIDTHxHEIGHT of the picture in pixels")->capture_default_str();
+  command
+      .add_option("--points", points_, "auto, gl (OpenGL), or cpu (this program, far faster where OpenGL is software)")
+      ->type_name("WHO")
+      ->capture_default_str();
   command
       .add_option("--background", background_, "#rrggbb, or r,g,b with components 0..1 (or 0..255 when one is above 1)")
       ->capture_default_str();
@@ -102,6 +115,11 @@ Result<ViewOptions> ViewArguments::view() const {
     return std::unexpected(background.error());
   }
   view.background = *background;
+  const auto points = parsePointWay(points_);
+  if (!points) {
+    return std::unexpected(points.error());
+  }
+  view.points = *points;
   for (const auto& [what, text, member] :
        {std::tuple{"--eye", &eye_, &ViewOptions::eye}, std::tuple{"--look-at", &look_at_, &ViewOptions::look_at}}) {
     if (!text->empty()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenegraph/camera/follow.h"
+#include "scenegraph/pipeline/view_pipeline.h"
 #include "tools/cli/cli_error.h"
 #include "tools/cli/layer_argument.h"
 #include "tools/cli/recording_options.h"
@@ -31,6 +32,7 @@ struct ViewOptions {
   scenegraph::FollowMode follow = scenegraph::FollowMode::Off;
   PictureSize size;
   scenegraph::Color background{0.12F, 0.13F, 0.15F, 1.0F};
+  scenegraph::PointWay points = scenegraph::PointWay::Auto;
 };
 
 /// Texts of the options above as typed; CLI11 fills them, view() parses them so that every error reads alike.
@@ -52,10 +54,13 @@ class ViewArguments {
   std::string follow_;
   std::string size_ = "1280x720";
   std::string background_ = "#1f2126";
+  std::string points_ = "auto";
 };
 
 /// "orbit", "xyorbit", "topdown" or "fly".
 [[nodiscard]] Result<scenegraph::CameraKind> parseCamera(const std::string& text);
+/// "auto", "gl" or "cpu".
+[[nodiscard]] Result<scenegraph::PointWay> parsePointWay(const std::string& text);
 /// "FRAME" (rigidly: pose) or "FRAME:MODE", MODE being position, heading or pose. A frame's own name may hold colons.
 [[nodiscard]] Result<std::pair<std::string, scenegraph::FollowMode>> parseFollow(const std::string& text);
 

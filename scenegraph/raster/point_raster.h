@@ -65,8 +65,8 @@ class PointRaster {
   /// Draws these passes of all batches (at most 2^32 - 1 points) on top of what is there.
   void draw(std::span<const PointBatch> batches, const PassRange& passes = {});
 
-  /// The picture in colour: linear red, green, blue and alpha of PointShading as half floats, and reverse-Z depth; all 0 where
-  /// nothing was drawn. One pixel a key; `shading` is that of the batches drawn.
+  /// The picture in colour: linear red, green, blue and alpha of PointShading as half floats, and reverse-Z depth; all
+  /// 0 where nothing was drawn. One pixel a key; `shading` is that of the batches drawn.
   void resolve(const PointShading& shading, std::span<std::uint16_t> rgba, std::span<float> depth) const;
 
   /// One key a pixel, bottom row first.

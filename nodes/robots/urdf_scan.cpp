@@ -265,6 +265,9 @@ class Scanner {
       return error("UrdfNoRoot", "the robot has no links");
     }
     const std::set<std::string> known_links(links_.begin(), links_.end());
+    if (known_links.contains("")) {
+      return error("UrdfMalformed", "a link has no name");
+    }
     std::map<std::string, const Joint*> joint_of_child;
     for (const Joint& joint : joints_) {
       for (const std::string& link : {joint.parent, joint.child}) {

@@ -62,6 +62,8 @@ TEST(UrdfReader, RefusesWhatIsNoTreeAndSaysWhere) {
   EXPECT_EQ(codeOf(robot(links + joint("1", "a", "a") + joint("2", "a", "b") + joint("3", "b", "c"))), "UrdfLoop");
   EXPECT_EQ(codeOf(robot("")), "UrdfNoRoot");
   EXPECT_EQ(codeOf(robot(R"(<link name="a"/>)" + joint("1", "nowhere", "a"))), "UrdfUnknownLink");
+  EXPECT_EQ(codeOf(robot(R"(<link neme="a"/><link name="b"/><link name="c"/>)" + joint("1", "", "b"))),
+            "UrdfMalformed");
   const auto two = readUrdf(robot(links + joint("1", "a", "b")));
   EXPECT_NE(two.error().message.find("'c'"), std::string::npos) << two.error().message;
 }

@@ -53,6 +53,7 @@ struct ViewPipeline::Impl {
 
   [[nodiscard]] unsigned contextId() const { return window->getState()->getContextID(); }
   void makeViewer();
+  void setSceneData(osg::Node* scene);
   std::expected<void, Status> makeStages();
   void dropStages();
   void adoptGlState();
@@ -79,8 +80,13 @@ void ViewPipeline::Impl::makeViewer() {
   main.setCullingMode(osg::CullSettings::NO_CULLING);
   main.setProjectionMatrix(osg::Matrixd::identity());
   main.setProjectionResizePolicy(osg::Camera::FIXED);
-  // OSG's compile step draws text outright, with no target bound. What is drawn compiles itself.
-  if (auto* const renderer = dynamic_cast<osgViewer::Renderer*>(main.getRenderer())) {
+}
+
+/// OSG's compile step, which comes with each scene, draws text outright, with no target bound. What is drawn compiles
+/// itself.
+void ViewPipeline::Impl::setSceneData(osg::Node* scene) {
+  viewer->setSceneData(scene);
+  if (auto* const renderer = dynamic_cast<osgViewer::Renderer*>(viewer->getCamera()->getRenderer())) {
     renderer->setCompileOnNextDraw(false);
   }
 }
@@ -97,7 +103,7 @@ std::expected<void, Status> ViewPipeline::Impl::makeStages() {
     return std::unexpected(made.error());
   }
   stages = std::move(*made);
-  viewer->setSceneData(&stages->group());
+  setSceneData(&stages->group());
   return {};
 }
 
@@ -107,7 +113,7 @@ void ViewPipeline::Impl::dropStages() {
   }
   stages->release(*window->getState());
   stages.reset();
-  viewer->setSceneData(nullptr);
+  setSceneData(nullptr);
   osg::flushAllDeletedGLObjects(contextId());
 }
 

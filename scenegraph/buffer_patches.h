@@ -17,6 +17,7 @@ namespace stillframe::scenegraph {
 /// draws. Whoever draws the graph without that must not have drawn it before: a first upload is whole. GUI thread.
 class BufferPatches : public osg::Referenced {
  public:
+  ~BufferPatches() override = default;
   /// Makes those of `root`, unless it has some.
   static void hangOn(osg::Group& root);
   /// Those of the graph that `node` is the root of, or hangs in; nullptr when there are none.
@@ -30,9 +31,6 @@ class BufferPatches : public osg::Referenced {
 
   /// What the last upload() wrote itself.
   [[nodiscard]] std::size_t uploadedBytes() const noexcept { return uploaded_bytes_; }
-
- protected:
-  ~BufferPatches() override = default;
 
  private:
   struct Patch {

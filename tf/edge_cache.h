@@ -148,8 +148,10 @@ inline EdgeCache::Probe EdgeCache::probe(std::size_t block_guess, TimePoint time
 }
 
 inline void EdgeCache::prefetchSample(const Probe& probe) noexcept {
-  __builtin_prefetch(probe.samples + probe.guess);
-  __builtin_prefetch(probe.samples + probe.guess + 1);
+  if (probe.samples != nullptr) {
+    __builtin_prefetch(probe.samples + probe.guess);
+    __builtin_prefetch(probe.samples + probe.guess + 1);
+  }
 }
 
 inline const EdgeCache::Sample* EdgeCache::find(const Probe& probe, TimePoint time) noexcept {

@@ -46,6 +46,18 @@ bool DracoBudget::allowsOrientations(draco::PredictionSchemeMethod method, draco
   return true;  // another prediction; or cut off, which libdraco notices
 }
 
+bool DracoBudget::allowsTree(draco::DecoderBuffer buffer, std::uint64_t points) {
+  std::uint8_t method = 0;
+  std::uint8_t level = 0;
+  std::uint32_t count = 0;
+  if (buffer.bitstream_version() >= DRACO_BITSTREAM_VERSION(2, 3) || !buffer.Decode(&method) ||
+      !buffer.Decode(&level) || !buffer.Decode(&count) || count <= points) {
+    return true;  // or cut off, which libdraco notices
+  }
+  refused_ = DracoClaim{.points = count};
+  return false;
+}
+
 bool DracoBudget::allowsValues(const draco::PointCloud& cloud) {
   std::uint64_t point_bytes = 0;
   for (int i = 0; i < cloud.num_attributes(); ++i) {

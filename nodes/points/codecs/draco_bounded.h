@@ -1,10 +1,12 @@
 #pragma once
 
+#include <draco/compression/attributes/kd_tree_attributes_decoder.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/compression/point_cloud/point_cloud_kd_tree_decoder.h>
 #include <draco/compression/point_cloud/point_cloud_sequential_decoder.h>
 
+#include <concepts>
 #include <cstdint>
 #include <optional>
 
@@ -30,6 +32,8 @@ class DracoBudget {
   /// The bits of a prediction that come next: at most one for each corner of a face.
   [[nodiscard]] bool allowsOrientations(draco::PredictionSchemeMethod method, draco::DecoderBuffer buffer,
                                         std::uint64_t faces);
+  /// The number of points that a k-d tree of a bitstream before 2.3 says once more: at most that of the cloud.
+  [[nodiscard]] bool allowsTree(draco::DecoderBuffer buffer, std::uint64_t points);
   /// The claim that was too large.
   [[nodiscard]] const std::optional<DracoClaim>& refused() const noexcept { return refused_; }
 
@@ -51,6 +55,9 @@ void boundPredictions(draco::MeshDecoder& decoder, DracoBudget& budget);
 template <typename Base>
 class BoundedCloudDecoder final : public Base {
  public:
+  explicit BoundedCloudDecoder(DracoBudget& budget)
+    requires std::constructible_from<Base, DracoBudget&>
+      : Base(budget), budget_(budget) {}
   explicit BoundedCloudDecoder(DracoBudget& budget) : budget_(budget) {}
 
  protected:
@@ -83,7 +90,36 @@ class BoundedMeshDecoder final : public Base {
 };
 
 using BoundedSequentialCloud = BoundedCloudDecoder<draco::PointCloudSequentialDecoder>;
-using BoundedKdTreeCloud = BoundedCloudDecoder<draco::PointCloudKdTreeDecoder>;
+
+/// The attributes of a k-d tree within a budget.
+class BoundedKdTreeAttributes final : public draco::KdTreeAttributesDecoder {
+ public:
+  explicit BoundedKdTreeAttributes(DracoBudget& budget) : budget_(budget) {}
+
+ protected:
+  bool DecodeDataNeededByPortableTransforms(draco::DecoderBuffer* buffer) override {
+    return budget_.allowsTree(*buffer, GetDecoder()->point_cloud()->num_points()) &&
+           KdTreeAttributesDecoder::DecodeDataNeededByPortableTransforms(buffer);
+  }
+
+ private:
+  DracoBudget& budget_;
+};
+
+/// The k-d tree decoder of libdraco with such attributes.
+class KdTreeCloudDecoder : public draco::PointCloudKdTreeDecoder {
+ public:
+  explicit KdTreeCloudDecoder(DracoBudget& budget) : budget_of_tree_(budget) {}
+
+ protected:
+  bool CreateAttributesDecoder(std::int32_t id) override {
+    return SetAttributesDecoder(id, std::make_unique<BoundedKdTreeAttributes>(budget_of_tree_));
+  }
+
+ private:
+  DracoBudget& budget_of_tree_;
+};
+using BoundedKdTreeCloud = BoundedCloudDecoder<KdTreeCloudDecoder>;
 using BoundedSequentialMesh = BoundedMeshDecoder<draco::MeshSequentialDecoder, &peekSequentialMesh>;
 using BoundedEdgebreakerMesh = BoundedMeshDecoder<draco::MeshEdgebreakerDecoder, &peekEdgebreakerMesh>;
 

@@ -33,7 +33,7 @@ class IncludeDirection(Tree):
         self.write("tf/time.h", "#pragma once\n#include <glm/vec3.hpp>\n#include <vector>\n")
         self.write("scenegraph/layer.h", '#pragma once\n#include <osg/Group>\n#include "tf/time.h"\n')
         self.write("viewer/view.cpp", '#include <QWidget>\n#include "nodes/registry.h"\n')
-        self.write("tools/cli/view.cpp", '#include "viewer/inspector.h"\n')
+        self.write("tools/cli/view.cpp", '#include "viewer/window/inspector.h"\n')
         self.write("tests/viewer/view_test.cpp", '#include <QTest>\n#include "tools/ingest/recording.h"\n')
         self.assertEqual(include_direction.check(self.root), [])
 
@@ -52,7 +52,7 @@ class IncludeDirection(Tree):
                 self.assertIn(f"{room}/ must not use Qt", " ".join(self.faults(f"{room}/bad.cpp", "<QString>")))
 
     def test_finds_a_second_door_to_the_viewer(self):
-        self.assertEqual(len(self.faults("tools/osgplugin/bad.cpp", '"viewer/inspector.h"')), 1)
+        self.assertEqual(len(self.faults("tools/osgplugin/bad.cpp", '"viewer/window/inspector.h"')), 1)
         self.assertEqual(len(self.faults("tools/cli/bad.cpp", '"viewer/view.h"')), 2)
 
     def test_finds_a_library_that_a_room_does_not_use(self):

@@ -1,4 +1,4 @@
-#include "viewer/camera_bar.h"
+#include "viewer/view/camera_bar.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <QTest>
 
 #include "tests/viewer/viewer_support.h"
-#include "viewer/frame_picker.h"
-#include "viewer/scene_widget.h"
-#include "viewer/view_panel.h"
+#include "viewer/frames/frame_picker.h"
+#include "viewer/view/view_panel.h"
+#include "viewer/widget/scene_widget.h"
 
 namespace stillframe::viewer {
 namespace {

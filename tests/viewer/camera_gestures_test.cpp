@@ -1,4 +1,4 @@
-#include "viewer/camera_gestures.h"
+#include "viewer/widget/camera_gestures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "viewer/dataset_loader.h"
+#include "viewer/window/dataset_loader.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "tests/viewer/viewer_support.h"
-#include "viewer/update_gate.h"
+#include "viewer/widget/update_gate.h"
 
 namespace stillframe::viewer {
 namespace {

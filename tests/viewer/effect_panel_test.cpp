@@ -1,4 +1,4 @@
-#include "viewer/effect_panel.h"
+#include "viewer/view/effect_panel.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <QToolButton>
 
 #include "tests/viewer/viewer_support.h"
-#include "viewer/scene_widget.h"
-#include "viewer/setting_editor.h"
-#include "viewer/view_panel.h"
+#include "viewer/layers/setting_editor.h"
+#include "viewer/view/view_panel.h"
+#include "viewer/widget/scene_widget.h"
 
 namespace stillframe::viewer {
 namespace {

@@ -12,16 +12,16 @@
 #include <cmath>
 
 #include "tests/viewer/viewer_support.h"
-#include "viewer/frame_memory.h"
-#include "viewer/frame_picker.h"
-#include "viewer/frame_pose.h"
-#include "viewer/frame_tree.h"
-#include "viewer/inspector_window.h"
-#include "viewer/layer_panel.h"
-#include "viewer/pose_text.h"
-#include "viewer/problem_list.h"
-#include "viewer/scene_widget.h"
-#include "viewer/time_bar.h"
+#include "viewer/frames/frame_memory.h"
+#include "viewer/frames/frame_picker.h"
+#include "viewer/frames/frame_pose.h"
+#include "viewer/frames/frame_tree.h"
+#include "viewer/frames/pose_text.h"
+#include "viewer/frames/problem_list.h"
+#include "viewer/layers/layer_panel.h"
+#include "viewer/time/time_bar.h"
+#include "viewer/widget/scene_widget.h"
+#include "viewer/window/inspector_window.h"
 
 namespace stillframe::viewer {
 namespace {

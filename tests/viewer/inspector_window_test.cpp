@@ -1,4 +1,4 @@
-#include "viewer/inspector_window.h"
+#include "viewer/window/inspector_window.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 #include <QUrl>
 
 #include "tests/viewer/viewer_support.h"
-#include "viewer/frame_picker.h"
-#include "viewer/frame_tree.h"
-#include "viewer/message_bar.h"
-#include "viewer/scene_widget.h"
-#include "viewer/time_bar.h"
+#include "viewer/frames/frame_picker.h"
+#include "viewer/frames/frame_tree.h"
+#include "viewer/time/time_bar.h"
+#include "viewer/widget/scene_widget.h"
+#include "viewer/window/message_bar.h"
 
 namespace stillframe::viewer {
 namespace {

@@ -4,7 +4,7 @@
 #include <QSettings>
 #include <QTemporaryDir>
 
-#include "viewer/gl_format.h"
+#include "viewer/widget/gl_format.h"
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

@@ -12,10 +12,10 @@
 
 #include "nodes/registry.h"
 #include "tests/viewer/viewer_support.h"
-#include "viewer/frame_picker.h"
-#include "viewer/frame_tree.h"
-#include "viewer/layer_panel.h"
-#include "viewer/setting_editor.h"
+#include "viewer/frames/frame_picker.h"
+#include "viewer/frames/frame_tree.h"
+#include "viewer/layers/layer_panel.h"
+#include "viewer/layers/setting_editor.h"
 
 namespace stillframe::viewer {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/playback.h"
+#include "viewer/time/playback.h"
 
 #include <gtest/gtest.h>
 

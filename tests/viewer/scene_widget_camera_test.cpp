@@ -9,8 +9,8 @@
 
 #include "scenegraph/camera/picking.h"
 #include "tests/viewer/viewer_support.h"
-#include "viewer/help_overlay.h"
-#include "viewer/scene_widget.h"
+#include "viewer/widget/help_overlay.h"
+#include "viewer/widget/scene_widget.h"
 
 namespace stillframe::viewer {
 namespace {

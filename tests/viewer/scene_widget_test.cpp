@@ -1,4 +1,4 @@
-#include "viewer/scene_widget.h"
+#include "viewer/widget/scene_widget.h"
 
 #include <gtest/gtest.h>
 

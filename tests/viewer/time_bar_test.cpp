@@ -1,4 +1,4 @@
-#include "viewer/time_bar.h"
+#include "viewer/time/time_bar.h"
 
 #include <gtest/gtest.h>
 

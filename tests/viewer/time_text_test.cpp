@@ -1,4 +1,4 @@
-#include "viewer/time_text.h"
+#include "viewer/time/time_text.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "scenegraph/store/dataset.h"
 #include "tests/support/builders.h"
-#include "viewer/dataset_loader.h"
+#include "viewer/window/dataset_loader.h"
 
 namespace stillframe::test {
 

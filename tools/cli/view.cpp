@@ -15,7 +15,7 @@
 #include "tools/cli/view_options.h"
 #ifdef STILLFRAME_HAS_VIEWER
 #include "tools/ingest/file.h"
-#include "viewer/inspector.h"
+#include "viewer/window/inspector.h"
 #endif
 
 namespace stillframe::cli {

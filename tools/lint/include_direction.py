@@ -44,7 +44,7 @@ ALLOWED = {
 }
 WITHOUT_OSG = ("tf", "scenegraph/camera", "scenegraph/objects", "scenegraph/store", "nodes/images", "nodes/meshes",
                "nodes/points", "nodes/robots", "tools/ingest")
-DOOR_TO_VIEWER = ("tools/cli", "viewer/inspector.h")
+DOOR_TO_VIEWER = ("tools/cli", "viewer/window/inspector.h")
 
 
 def includes(path):

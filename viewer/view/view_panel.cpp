@@ -1,0 +1,271 @@
+#include "viewer/view/view_panel.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSplitter>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "nodes/tf_axes/frame_list.h"
+#include "viewer/frames/frame_memory.h"
+#include "viewer/frames/frame_picker.h"
+#include "viewer/layers/layer_panel.h"
+#include "viewer/view/camera_bar.h"
+#include "viewer/view/effect_panel.h"
+#include "viewer/widget/scene_widget.h"
+#include "viewer/window/icons.h"
+
+namespace stillframe::viewer {
+namespace {
+
+constexpr int kLayerPanelWidth = 270;
+
+}  // namespace
+
+ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter(Qt::Horizontal, this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+
+  auto* bar = new QWidget(this);
+  auto* bar_layout = new QHBoxLayout(bar);
+  bar_layout->setContentsMargins(4, 2, 4, 2);
+  bar_layout->setSpacing(2);
+  layers_button_ = addButton(*bar, QStringLiteral("layers"), transportIcon(TransportIcon::Layers), tr("Layers"));
+  layers_button_->setCheckable(true);
+  layers_button_->setChecked(true);
+  effects_button_ = addButton(*bar, QStringLiteral("effects"), transportIcon(TransportIcon::Effects),
+                              tr("Effects: shading, tone mapping, anti-aliasing"));
+  effects_button_->setCheckable(true);
+  auto* label = new QLabel(tr("Fixed frame"), bar);
+  bar_layout->addSpacing(4);
+  bar_layout->addWidget(label);
+  picker_ = new FramePicker(tr("Fixed frame"), tr("the frame that stands still"), bar);
+  picker_->setObjectName(QStringLiteral("fixedFrame"));
+  bar_layout->addWidget(picker_);
+  auto* place_of_camera_bar = new QHBoxLayout;
+  bar_layout->addLayout(place_of_camera_bar, 1);
+  auto* recenter = addButton(*bar, QStringLiteral("recenter"), transportIcon(TransportIcon::Recenter),
+                             tr("Look at everything (Home)"));
+  auto* split_right = addButton(*bar, QStringLiteral("splitRight"), transportIcon(TransportIcon::SplitRight),
+                                tr("Duplicate this view to the right"));
+  auto* split_below = addButton(*bar, QStringLiteral("splitBelow"), transportIcon(TransportIcon::SplitBelow),
+                                tr("Duplicate this view below"));
+  auto* close = addButton(*bar, QStringLiteral("close"), transportIcon(TransportIcon::Close), tr("Close this view"));
+  layout->addWidget(bar);
+
+  splitter_->setChildrenCollapsible(true);
+  auto* side = new QSplitter(Qt::Vertical, splitter_);
+  layers_ = new LayerPanel(side);
+  layers_->setObjectName(QStringLiteral("layerPanel"));
+  effects_ = new EffectPanel(side);
+  effects_->setObjectName(QStringLiteral("effectPanel"));
+  effects_->setVisible(false);
+  view_ = new SceneWidget(splitter_);
+  camera_bar_ = new CameraBar(*view_, bar);
+  place_of_camera_bar->addWidget(camera_bar_);
+  splitter_->setStretchFactor(0, 0);
+  splitter_->setStretchFactor(1, 1);
+  splitter_->setSizes({kLayerPanelWidth, 3 * kLayerPanelWidth});
+  layout->addWidget(splitter_, 1);
+
+  const auto show_panels = [this, side] {
+    layers_->setVisible(layers_button_->isChecked());
+    effects_->setVisible(effects_button_->isChecked());
+    side->setVisible(layers_button_->isChecked() || effects_button_->isChecked());
+  };
+  connect(layers_button_, &QToolButton::toggled, this, show_panels);
+  connect(effects_button_, &QToolButton::toggled, this, show_panels);
+  connect(effects_, &EffectPanel::changed, view_, [this] { view_->setEffects(effects_->effects()); });
+  connect(effects_, &EffectPanel::refused, this, &ViewPanel::refused);
+  connect(recenter, &QToolButton::clicked, view_, &SceneWidget::home);
+  connect(split_right, &QToolButton::clicked, this, [this] { Q_EMIT splitRequested(Qt::Horizontal); });
+  connect(split_below, &QToolButton::clicked, this, [this] { Q_EMIT splitRequested(Qt::Vertical); });
+  connect(close, &QToolButton::clicked, this, &ViewPanel::closeRequested);
+  connect(picker_, &FramePicker::picked, this, &ViewPanel::pickFixedFrame);
+  connect(layers_, &LayerPanel::changed, view_, [this] { view_->requestTick(); });
+  connect(layers_, &LayerPanel::refused, this, &ViewPanel::refused);
+  connect(view_, &SceneWidget::sceneUpdated, this, [this] {
+    layers_->refresh();
+    refreshFrames();
+  });
+}
+
+ViewPanel::~ViewPanel() {
+  layers_->setScene(nullptr);  // before the view takes its scene along
+}
+
+QToolButton* ViewPanel::addButton(QWidget& bar, const QString& name, const QIcon& icon, const QString& tip) {
+  auto* button = new QToolButton(&bar);
+  button->setObjectName(name);
+  button->setIcon(icon);
+  button->setToolTip(tip);
+  button->setAutoRaise(true);
+  button->setFocusPolicy(Qt::NoFocus);
+  bar.layout()->addWidget(button);
+  return button;
+}
+
+void ViewPanel::setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegraph::Executor& executor,
+                           const LayerChoices& choices) {
+  layers_->setScene(nullptr);
+  view_->setDataset(std::move(dataset), executor);
+  if (view_->scene() != nullptr && memory_ != nullptr) {
+    view_->scene()->setPreferredFrame(memory_->recall(view_->scene()->dataset().name()));
+  }
+  choices_ = choices;
+  is_choice_applied_.assign(choices_.layers.size(), false);
+  addWantedLayers();
+  layers_->setScene(view_->scene());
+  refreshFrames();
+}
+
+void ViewPanel::addWantedLayers() {
+  scenegraph::Scene* scene = view_->scene();
+  if (scene == nullptr) {
+    return;
+  }
+  if (!choices_.only) {
+    scene->addDefaultLayers();
+  }
+  for (std::size_t i = 0; i < choices_.layers.size(); ++i) {
+    const LayerChoice& choice = choices_.layers[i];
+    if (is_choice_applied_[i]) {
+      continue;
+    }
+    scenegraph::LayerSlot* slot = scene->findLayer(choice.topic);
+    if (slot == nullptr) {
+      const auto added = scene->addLayer(choice.topic);
+      if (!added) {
+        continue;  // the topic may come while the file loads
+      }
+      slot = *added;
+    }
+    is_choice_applied_[i] = true;
+    if (const auto applied = slot->layer->applySettings(choice.settings); !applied) {
+      Q_EMIT refused(QString::fromStdString(choice.topic + ": " + applied.error().message));
+    }
+  }
+}
+
+void ViewPanel::takeGrowth() {
+  addWantedLayers();
+  layers_->refresh();
+  refreshFrames();
+  view_->requestTick();
+}
+
+void ViewPanel::homeUnlessTouched() {
+  if (!view_->isCameraTouched()) {
+    view_->resetView();
+  }
+}
+
+void ViewPanel::refreshFrames() {
+  scenegraph::Scene* scene = view_->scene();
+  if (scene == nullptr) {
+    return;
+  }
+  const tf::TransformBuffer& buffer = *scene->dataset().transforms();
+  if (buffer.frameCount() != static_cast<std::size_t>(picker_->frameCount())) {
+    picker_->setFrames(buffer.frames());
+  }
+  picker_->setCurrent(scene->isFixedFrameExplicit() ? std::optional(scene->fixedFrame()) : std::nullopt,
+                      scene->automaticFrame());
+  camera_bar_->refresh();
+}
+
+/// By hand: other views of this source begin with it from now on.
+void ViewPanel::pickFixedFrame(const std::optional<std::string>& frame) {
+  scenegraph::Scene* scene = view_->scene();
+  if (scene != nullptr) {
+    if (memory_ != nullptr) {
+      memory_->remember(scene->dataset().name(), frame);
+    }
+    if (!frame) {
+      scene->setPreferredFrame(std::nullopt);  // automatic was asked for, and means what it says
+    }
+  }
+  view_->setFixedFrame(frame);
+  refreshFrames();
+  view_->setFocus();
+}
+
+ViewPanel::FrameNames ViewPanel::hiddenFrames() const {
+  scenegraph::Scene* scene = view_->scene();
+  const scenegraph::LayerSlot* axes = scene == nullptr ? nullptr : scene->findLayer("tf");
+  if (axes == nullptr) {
+    return {};
+  }
+  const scenegraph::SettingTexts settings = axes->layer->settings();
+  const auto found = settings.find("hidden_frames");
+  return found == settings.end() ? FrameNames() : nodes::splitFrameNames(found->second);
+}
+
+void ViewPanel::setHiddenFrames(const FrameNames& hidden) {
+  scenegraph::Scene* scene = view_->scene();
+  scenegraph::LayerSlot* axes = scene == nullptr ? nullptr : scene->findLayer("tf");
+  if (axes == nullptr) {
+    return;
+  }
+  if (const auto applied = axes->layer->applySettings({{"hidden_frames", nodes::joinFrameNames(hidden)}}); !applied) {
+    Q_EMIT refused(QString::fromStdString("tf: " + applied.error().message));
+  }
+  layers_->refresh();
+  view_->requestTick();
+}
+
+ViewState ViewPanel::state() const {
+  ViewState state;
+  state.shows_layers = layers_button_->isChecked();
+  state.shows_effects = effects_button_->isChecked();
+  state.effects = view_->effects();
+  scenegraph::Scene* scene = view_->scene();
+  if (scene == nullptr) {
+    return state;
+  }
+  if (scene->isFixedFrameExplicit()) {
+    state.fixed_frame = scene->fixedFrame();
+  }
+  state.viewpoint = view_->camera().state();
+  state.is_camera_touched = view_->isCameraTouched();
+  state.saved_views = view_->savedViews();
+  state.has_smooth_moves = view_->hasSmoothMoves();
+  for (const auto& slot : scene->layers()) {
+    state.layers[slot->topic] = {slot->layer->isVisible(), slot->layer->settings()};
+  }
+  return state;
+}
+
+void ViewPanel::setState(const ViewState& state) {
+  layers_button_->setChecked(state.shows_layers);
+  effects_button_->setChecked(state.shows_effects);
+  effects_->setEffects(state.effects);
+  view_->setEffects(state.effects);
+  scenegraph::Scene* scene = view_->scene();
+  if (scene == nullptr) {
+    return;
+  }
+  scene->setFixedFrame(state.fixed_frame);
+  for (const auto& [topic, layer] : state.layers) {
+    scenegraph::LayerSlot* slot = scene->findLayer(topic);
+    if (slot == nullptr) {
+      continue;
+    }
+    slot->layer->setVisible(layer.is_visible);
+    if (const auto applied = slot->layer->applySettings(layer.settings); !applied) {
+      Q_EMIT refused(QString::fromStdString(topic + ": " + applied.error().message));
+    }
+  }
+  view_->setSavedViews(state.saved_views);
+  view_->setSmoothMoves(state.has_smooth_moves);
+  view_->setViewpoint(state.viewpoint);
+  if (!state.is_camera_touched) {
+    view_->resetView();
+  }
+  layers_->refresh();
+  refreshFrames();
+  view_->requestTick();
+}
+
+}  // namespace stillframe::viewer

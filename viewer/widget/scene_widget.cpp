@@ -1,0 +1,219 @@
+#include "viewer/widget/scene_widget.h"
+
+#include <QLabel>
+#include <QOpenGLContext>
+#include <QResizeEvent>
+#include <utility>
+
+#include "nodes/registry.h"
+#include "scenegraph/pipeline/gl_context_info.h"
+#include "viewer/widget/gl_format.h"
+#include "viewer/widget/help_overlay.h"
+
+namespace stillframe::viewer {
+namespace {
+
+constexpr double kPointBudgetMs = 33.0;  // of a frame, so that the camera follows the hand with any cloud
+constexpr int kProgressMargin = 6;
+
+QLabel* makeOverlay(QWidget* parent) {
+  auto* label = new QLabel(parent);
+  label->setAttribute(Qt::WA_TransparentForMouseEvents);
+  label->setVisible(false);
+  return label;
+}
+
+}  // namespace
+
+SceneWidget::SceneWidget(QWidget* parent)
+    : QOpenGLWidget(parent),
+      gate_([this] { applyTick(); }),
+      message_(makeOverlay(this)),
+      hover_label_(makeOverlay(this)),
+      progress_label_(makeOverlay(this)),
+      help_(new HelpOverlay(this)) {
+  clock_.start();
+  setFormat(glFormat());
+  setMouseTracking(true);
+  setFocusPolicy(Qt::StrongFocus);
+  setMinimumSize(0, 0);
+  message_->setAlignment(Qt::AlignCenter);
+  message_->setWordWrap(true);
+  message_->setMargin(24);
+  message_->setStyleSheet(QStringLiteral("color: #e8e8e8; background: #202226;"));
+  for (QLabel* const label : {hover_label_, progress_label_}) {
+    label->setStyleSheet(
+        QStringLiteral("color: white; background: rgba(20, 22, 26, 200); border-radius: 3px; padding: 2px 5px;"));
+  }
+}
+
+SceneWidget::~SceneWidget() {
+  disconnect(context_watch_);
+  dropPipeline();
+}
+
+void SceneWidget::setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegraph::Executor& executor) {
+  dropPipeline();
+  scene_.reset();
+  if (dataset != nullptr) {
+    scene_ = std::make_unique<scenegraph::Scene>(std::move(dataset), nodes::layerTypes(), executor, gate_.requester());
+  }
+  is_camera_touched_ = false;
+  wants_framing_ = true;
+  has_framed_data_ = false;
+  camera_frame_.clear();
+  selection_.reset();
+  requestTick();
+  update();
+}
+
+void SceneWidget::setTime(tf::TimePoint time) {
+  if (time != time_) {
+    time_ = time;
+    requestTick();
+  }
+}
+
+void SceneWidget::setFixedFrame(const std::optional<std::string>& frame) {
+  if (scene_ == nullptr) {
+    return;
+  }
+  scene_->setFixedFrame(frame);
+  requestTick();
+  update();
+}
+
+bool SceneWidget::applyTick() {
+  if (scene_ == nullptr || !isVisible()) {
+    return false;  // showEvent() asks again
+  }
+  bool is_changed = scene_->update(time_);
+  is_changed = followTick() || is_changed;  // after the scene, so that camera and data are of one tick
+  frameIfWanted();
+  if (is_changed) {
+    update();
+  }
+  Q_EMIT sceneUpdated();
+  return is_changed;
+}
+
+void SceneWidget::setBackground(const scenegraph::Color& background) {
+  if (!(background == background_)) {
+    background_ = background;
+    update();
+  }
+}
+
+void SceneWidget::setEffects(const scenegraph::ViewEffects& effects) {
+  if (effects == effects_) {
+    return;
+  }
+  effects_ = effects;
+  if (pipeline_ != nullptr) {
+    pipeline_->setPostChain(effects_.chain());
+  }
+  update();
+}
+
+QString SceneWidget::problem() const { return message_->isHidden() ? QString() : message_->text(); }
+
+void SceneWidget::initializeGL() {
+  disconnect(context_watch_);
+  context_watch_ =
+      connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &SceneWidget::releaseGl, Qt::DirectConnection);
+  const auto info = scenegraph::inspectCurrentContext();
+  is_context_usable_ = info.has_value();
+  if (!info) {
+    qCWarning(glLog).noquote() << QString::fromStdString(info.error().message);
+    showProblem(tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(info.error().message)));
+    return;
+  }
+  showProblem({});
+  debug_log_.install();
+}
+
+void SceneWidget::paintGL() {
+  if (!is_context_usable_) {
+    return;
+  }
+  if (pipeline_ == nullptr) {
+    pipeline_ = std::make_unique<scenegraph::ViewPipeline>(
+        scene_ == nullptr ? osg::ref_ptr<osg::Group>(new osg::Group) : osg::ref_ptr<osg::Group>(&scene_->root()));
+    pipeline_->setPostChain(effects_.chain());
+  }
+  const QSizeF size_px = QSizeF(size()) * devicePixelRatioF();
+  walk();
+  const scenegraph::CameraView view = shownView();
+  if (scene_ != nullptr) {
+    scene_->setView(view, {size_px.width(), size_px.height()});
+  }
+  pipeline_->setView(view);
+  pipeline_->setBackground(background_);
+  pipeline_->setPointBudget(kPointBudgetMs);
+  const auto drawn = pipeline_->render(defaultFramebufferObject(), qRound(size_px.width()), qRound(size_px.height()));
+  showProblem(drawn ? QString()
+                    : tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(drawn.error().message)));
+  ++frames_drawn_;
+  showProgress();
+  if (keys_.isWalking() || camera_.isMoving(now()) || pointShare() < 1.0) {
+    update();
+  }
+  for (; logged_messages_ < debug_log_.messages().size(); ++logged_messages_) {
+    qCWarning(glLog).noquote() << QString::fromStdString(debug_log_.messages()[logged_messages_]);
+  }
+}
+
+double SceneWidget::pointShare() const {
+  return pipeline_ != nullptr && pipeline_->pointProgress() ? pipeline_->pointProgress()->share : 1.0;
+}
+
+void SceneWidget::showProgress() {
+  const double share = pointShare();
+  progress_label_->setVisible(share < 1.0);
+  if (share < 1.0) {
+    progress_label_->setText(tr("%1 % of the points, refining").arg(100.0 * share, 0, 'g', 2));
+    progress_label_->adjustSize();
+    progress_label_->move(kProgressMargin, height() - progress_label_->height() - kProgressMargin);
+  }
+}
+
+void SceneWidget::releaseGl() {
+  if (!is_context_usable_) {
+    return;
+  }
+  makeCurrent();
+  if (pipeline_ != nullptr) {
+    pipeline_->releaseGl();
+  }
+  debug_log_.uninstall();
+  doneCurrent();
+  gl_messages_ += debug_log_.count();
+  debug_log_.clear();
+  logged_messages_ = 0;
+  is_context_usable_ = false;
+}
+
+void SceneWidget::dropPipeline() {
+  if (pipeline_ == nullptr) {
+    return;
+  }
+  // Without a usable context everything was released when the last one went.
+  if (is_context_usable_) {
+    makeCurrent();
+    pipeline_.reset();
+    doneCurrent();
+  } else {
+    pipeline_.reset();
+  }
+}
+
+void SceneWidget::showProblem(const QString& text) {
+  if (message_->text() == text && message_->isHidden() == text.isEmpty()) {
+    return;
+  }
+  message_->setText(text);
+  message_->setGeometry(rect());
+  message_->setVisible(!text.isEmpty());
+}
+
+}  // namespace stillframe::viewer

@@ -1,0 +1,188 @@
+#pragma once
+
+#include <QElapsedTimer>
+#include <QOpenGLWidget>
+#include <QString>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenegraph/camera/view_camera.h"
+#include "scenegraph/passes/view_effects.h"
+#include "scenegraph/pipeline/gl_debug.h"
+#include "scenegraph/pipeline/view_pipeline.h"
+#include "scenegraph/scene.h"
+#include "viewer/widget/camera_gestures.h"
+#include "viewer/widget/camera_keys.h"
+#include "viewer/widget/update_gate.h"
+
+class QLabel;
+
+namespace stillframe::viewer {
+
+class HelpOverlay;
+
+/// What the user has picked out, to be framed by F: a ball round a point of a frame.
+struct Selection {
+  std::string frame;
+  glm::dvec3 point_in_frame{0.0, 0.0, 0.0};
+  double radius_m = 1.0;
+};
+
+/// The 3D view: one Scene, one camera, one pipeline in the widget's own context. GUI thread.
+///
+/// Draws on demand only: a tick, a camera, a setting or a finished background job asks for it, several requests make
+/// one update from the event loop, and an update that changes nothing draws nothing. Survives losing its context
+/// (moving to another window, hiding) and frees what it holds in it. What cannot be drawn is said over the view.
+class SceneWidget : public QOpenGLWidget {
+  Q_OBJECT
+
+ public:
+  explicit SceneWidget(QWidget* parent = nullptr);
+  ~SceneWidget() override;
+
+  /// Shows `dataset` from now on, with no layers yet. `executor` must outlive the widget. nullptr shows nothing.
+  void setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegraph::Executor& executor);
+  /// nullptr before the first dataset. Call requestTick() after changing its layers.
+  [[nodiscard]] scenegraph::Scene* scene() noexcept { return scene_.get(); }
+
+  void setTime(tf::TimePoint time);
+  [[nodiscard]] tf::TimePoint time() const noexcept { return time_; }
+  /// Changes the fixed frame at the next tick and carries the camera over, so that it goes on looking at the same
+  /// place.
+  void setFixedFrame(const std::optional<std::string>& frame);
+  /// The scene may have changed: poses frames and updates layers soon. Any thread.
+  void requestTick() { gate_.request(); }
+  /// Does now what is requested. Returns whether a repaint follows.
+  bool applyTick();
+
+  [[nodiscard]] const scenegraph::ViewCamera& camera() const noexcept { return camera_; }
+  /// What the next frame is drawn from: at the tick that was applied last, at this moment of a smooth move.
+  [[nodiscard]] scenegraph::CameraView shownView() const { return camera_.view(now()); }
+  /// At once, exactly.
+  void setViewpoint(const scenegraph::ViewpointState& state);
+  /// Whether a gesture or setViewpoint() has moved the camera since home().
+  [[nodiscard]] bool isCameraTouched() const noexcept { return is_camera_touched_; }
+  void setCameraKind(scenegraph::CameraKind kind);
+  void setFollow(scenegraph::FollowMode mode);
+  /// The frame that the camera lives in and may follow; nullopt: the fixed frame.
+  void setDisplayFrame(const std::optional<std::string>& frame);
+  /// Whether Home, F, saved views and clicks in the frame tree glide there. On at first.
+  void setSmoothMoves(bool enabled) { has_smooth_moves_ = enabled; }
+  [[nodiscard]] bool hasSmoothMoves() const noexcept { return has_smooth_moves_; }
+
+  void setSelection(const std::optional<Selection>& selection) { selection_ = selection; }
+  [[nodiscard]] const std::optional<Selection>& selection() const noexcept { return selection_; }
+
+  [[nodiscard]] const std::vector<scenegraph::SavedView>& savedViews() const noexcept { return saved_views_; }
+  void setSavedViews(std::vector<scenegraph::SavedView> views);
+  /// Saves what is shown; a view of that name is replaced, without a name it becomes "View 1", "View 2", ...
+  void saveView(const QString& name = {});
+  /// False when there is no view of that name.
+  bool showSavedView(const QString& name);
+  void setBackground(const scenegraph::Color& background);
+  void setEffects(const scenegraph::ViewEffects& effects);
+  [[nodiscard]] const scenegraph::ViewEffects& effects() const noexcept { return effects_; }
+
+  /// Share of the points that the last frame has drawn; below 1 the view goes on by itself until all are.
+  [[nodiscard]] double pointShare() const;
+  /// Frames drawn since the widget was made.
+  [[nodiscard]] std::uint64_t framesDrawn() const noexcept { return frames_drawn_; }
+  /// OpenGL debug messages so far, over all contexts.
+  [[nodiscard]] std::size_t glMessages() const noexcept { return gl_messages_ + debug_log_.count(); }
+  /// What is shown instead of the scene, "" when the scene is shown.
+  [[nodiscard]] QString problem() const;
+
+ public Q_SLOTS:
+  /// The default direction, all data in sight; once more when the first data of a topic comes into sight, unless the
+  /// camera was moved by hand before.
+  void home();
+  /// home() at once.
+  void resetView();
+  /// Keys and gestures over the view, or away.
+  void toggleHelp();
+  /// All data in sight from the present direction.
+  void frameAll();
+  /// The selection in sight, or all data when nothing is selected or it has no place now.
+  void frameSelection();
+  /// The followed frame to the middle of the picture, upright, from the same side and as far away.
+  void recenter();
+  /// From that side of what is looked at, e.g. (0, 0, 1): from above.
+  void lookFrom(const glm::dvec3& side);
+  /// The origin of `frame` becomes the focal point. Does nothing when it has no place at this time.
+  void frameOrigin(const std::string& frame);
+
+ Q_SIGNALS:
+  /// Layers have been updated: statuses, counts and choices may be new.
+  void sceneUpdated();
+  void cameraChanged();
+  void savedViewsChanged();
+  /// Name of the frame whose origin is near the cursor, "" when none is.
+  void frameHovered(const QString& frame);
+
+ protected:
+  void initializeGL() override;
+  void paintGL() override;
+  void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+
+ private:
+  void releaseGl();
+  void dropPipeline();
+  void frameIfWanted();
+  void onCameraMoved();
+  bool followTick();
+  bool obey(CameraCommand command);
+  bool steer(CameraCommand command);
+  void walk();
+  [[nodiscard]] scenegraph::Follow::Pose displayPose() const;
+  [[nodiscard]] double now() const { return static_cast<double>(clock_.nsecsElapsed()) * 1e-9; }
+  void hover(QPointF position);
+  void showProblem(const QString& text);
+  void showProgress();
+  [[nodiscard]] double aspect() const;
+
+  UpdateGate gate_;
+  scenegraph::GlDebugLog debug_log_;
+  std::size_t gl_messages_ = 0;      // of contexts that are gone
+  std::size_t logged_messages_ = 0;  // of debug_log_ that went to glLog
+  std::unique_ptr<scenegraph::Scene> scene_;
+  std::unique_ptr<scenegraph::ViewPipeline> pipeline_;
+  scenegraph::ViewCamera camera_;
+  std::string camera_frame_;  // the fixed frame that camera_ counts in
+  std::vector<scenegraph::SavedView> saved_views_;
+  std::optional<Selection> selection_;
+  CameraGestures gestures_;
+  CameraKeys keys_;
+  QElapsedTimer clock_;
+  double walked_s_ = 0.0;  // moment of the last step
+  bool has_smooth_moves_ = true;
+  bool glides_home_ = false;
+  scenegraph::Color background_{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
+  scenegraph::ViewEffects effects_;
+  tf::TimePoint time_;
+  bool wants_framing_ = true;
+  bool has_framed_data_ = false;
+  bool is_camera_touched_ = false;
+  bool is_context_usable_ = false;
+  std::uint64_t frames_drawn_ = 0;
+  QMetaObject::Connection context_watch_;
+  QLabel* message_ = nullptr;
+  QLabel* hover_label_ = nullptr;
+  QLabel* progress_label_ = nullptr;
+  HelpOverlay* help_ = nullptr;
+  QString hovered_frame_;
+};
+
+}  // namespace stillframe::viewer

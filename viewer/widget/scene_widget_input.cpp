@@ -1,0 +1,253 @@
+// Events of SceneWidget: gestures, keys, hover, being shown and resized.
+#include <QKeyEvent>
+#include <QLabel>
+#include <QMouseEvent>
+#include <QWheelEvent>
+#include <algorithm>
+
+#include "scenegraph/camera/picking.h"
+#include "viewer/widget/help_overlay.h"
+#include "viewer/widget/scene_widget.h"
+
+namespace stillframe::viewer {
+namespace {
+
+constexpr double kWheelNotch = 120.0;  // eighths of a degree, as QWheelEvent counts
+constexpr double kHoverReach = 24.0;   // device-independent pixels, as the next
+constexpr int kHoverOffset = 14;
+constexpr double kSamePlace = 4.0;
+constexpr int kMostHovered = 8;  // names in the label
+
+}  // namespace
+
+void SceneWidget::resizeEvent(QResizeEvent* event) {
+  QOpenGLWidget::resizeEvent(event);
+  message_->setGeometry(rect());
+  if (help_->isShown()) {
+    help_->place();
+  }
+}
+
+void SceneWidget::showEvent(QShowEvent* event) {
+  QOpenGLWidget::showEvent(event);
+  requestTick();
+}
+
+void SceneWidget::mousePressEvent(QMouseEvent* event) {
+  gestures_.press(event->button(), event->modifiers(), event->position());
+}
+
+void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
+  if (!gestures_.isDragging()) {
+    hover(event->position());
+  } else if (gestures_.move(event->position(), size(), camera_, now())) {
+    onCameraMoved();
+  }
+}
+
+void SceneWidget::mouseReleaseEvent(QMouseEvent* event) { gestures_.release(event->button()); }
+
+void SceneWidget::mouseDoubleClickEvent(QMouseEvent* event) {
+  // Means nothing of its own: the second press drags like the first.
+  mousePressEvent(event);
+}
+
+void SceneWidget::wheelEvent(QWheelEvent* event) {
+  // Some platforms turn a wheel with Alt or Shift into a sideways one.
+  const QPoint angle = event->angleDelta();
+  const double steps = (angle.y() != 0 ? angle.y() : angle.x()) / kWheelNotch;
+  if (steps != 0.0) {
+    CameraGestures::wheel(steps, event->modifiers(), event->position(), size(), camera_, now());
+    onCameraMoved();
+  }
+  event->accept();
+}
+
+void SceneWidget::keyPressEvent(QKeyEvent* event) {
+  const auto command = CameraKeys::command(*event);
+  const auto saved = CameraKeys::savedView(*event);
+  if (command && obey(*command)) {
+    return;
+  }
+  if (saved && static_cast<std::size_t>(*saved) <= saved_views_.size()) {
+    showSavedView(QString::fromStdString(saved_views_[static_cast<std::size_t>(*saved) - 1].name));
+  } else if (keys_.press(*event)) {
+    if (!event->isAutoRepeat()) {
+      walked_s_ = now();
+      hover_label_->hide();
+      update();
+    }
+  } else {
+    QOpenGLWidget::keyPressEvent(event);
+  }
+}
+
+void SceneWidget::keyReleaseEvent(QKeyEvent* event) {
+  if (keys_.release(*event)) {
+    Q_EMIT cameraChanged();
+  } else {
+    QOpenGLWidget::keyReleaseEvent(event);
+  }
+}
+
+void SceneWidget::focusOutEvent(QFocusEvent* event) {
+  keys_.releaseAll();  // the release goes to somebody else
+  QOpenGLWidget::focusOutEvent(event);
+}
+
+void SceneWidget::toggleHelp() { help_->setShown(!help_->isShown()); }
+
+/// Returns whether the key was for this view.
+bool SceneWidget::obey(CameraCommand command) {
+  using enum CameraCommand;
+  switch (command) {
+    case Home:
+      home();
+      break;
+    case Frame:
+      frameSelection();
+      break;
+    case FrameAll:
+      frameAll();
+      break;
+    case Recenter:
+      recenter();
+      break;
+    case Orbit:
+    case XyOrbit:
+    case TopDownOrtho:
+    case Fly:
+      setCameraKind(scenegraph::kCameraKinds[static_cast<int>(command) - static_cast<int>(Orbit)]);
+      break;
+    case NextFollow:
+      setFollow(scenegraph::kFollowModes[(static_cast<std::size_t>(camera_.follow().mode()) + 1) %
+                                         std::size(scenegraph::kFollowModes)]);
+      break;
+    case SaveView:
+      saveView();
+      break;
+    case Help:
+      toggleHelp();
+      break;
+    case CloseHelp:
+      if (!help_->isShown()) {
+        return false;
+      }
+      help_->setShown(false);
+      break;
+    default:
+      return steer(command);
+  }
+  return true;
+}
+
+bool SceneWidget::steer(CameraCommand command) {
+  using enum CameraCommand;
+  constexpr double kTurn = 1.0 / 24.0;  // of the height of the picture: 7.5 degrees
+  constexpr double kPan = 0.1;
+  const auto rotate = [this](double right, double down) { camera_.grasp(now()).rotate(right, down, 1.0); };
+  const auto pan = [this](double right, double down) { camera_.grasp(now()).pan(right, down, 1.0); };
+  switch (command) {
+    case FromX:
+      lookFrom({1, 0, 0});
+      return true;
+    case FromY:
+      lookFrom({0, 1, 0});
+      return true;
+    case FromZ:
+      lookFrom({0, 0, 1});
+      return true;
+    case FromMinusX:
+      lookFrom({-1, 0, 0});
+      return true;
+    case FromMinusY:
+      lookFrom({0, -1, 0});
+      return true;
+    case FromMinusZ:
+      lookFrom({0, 0, -1});
+      return true;
+    case TurnLeft:
+      rotate(-kTurn, 0.0);
+      break;
+    case TurnRight:
+      rotate(kTurn, 0.0);
+      break;
+    case TurnUp:
+      rotate(0.0, -kTurn);
+      break;
+    case TurnDown:
+      rotate(0.0, kTurn);
+      break;
+    case PanLeft:
+      pan(-kPan, 0.0);
+      break;
+    case PanRight:
+      pan(kPan, 0.0);
+      break;
+    case PanUp:
+      pan(0.0, -kPan);
+      break;
+    case PanDown:
+      pan(0.0, kPan);
+      break;
+    case ZoomIn:
+      camera_.grasp(now()).zoom(1.0);
+      break;
+    case ZoomOut:
+      camera_.grasp(now()).zoom(-1.0);
+      break;
+    case PaceUp:
+      camera_.changePace(1.0);
+      break;
+    case PaceDown:
+      camera_.changePace(-1.0);
+      break;
+    default:
+      return false;
+  }
+  onCameraMoved();
+  return true;
+}
+
+void SceneWidget::hover(QPointF position) {
+  if (scene_ == nullptr || !is_context_usable_) {
+    return;
+  }
+  const auto picks = scenegraph::pickFrames(scene_->frames().buffer(), scene_->frames().snapshot(), shownView(),
+                                            {static_cast<double>(width()), static_cast<double>(height())},
+                                            {position.x(), position.y()}, kHoverReach, kMostHovered + 1);
+  const QString frame = picks.empty() ? QString() : QString::fromStdString(picks.front().frame);
+  // Frames whose origins fall on each other are all named, one below the other.
+  QStringList names;
+  for (const scenegraph::FramePick& pick : picks) {
+    if (pick.distance_px - picks.front().distance_px < kSamePlace) {
+      names << (names.size() < kMostHovered ? QString::fromStdString(pick.frame) : tr("..."));
+    }
+  }
+  if (frame.isEmpty()) {
+    hover_label_->hide();
+  } else {
+    hover_label_->setText(names.join(QLatin1Char('\n')));
+    hover_label_->adjustSize();
+    // Beside the cursor, on the side where there is room.
+    const int right = qRound(position.x()) + kHoverOffset;
+    const int left = qRound(position.x()) - kHoverOffset - hover_label_->width();
+    const int below = qRound(position.y()) + kHoverOffset;
+    hover_label_->move(right + hover_label_->width() <= width() ? right : std::max(0, left),
+                       std::min(below, std::max(0, height() - hover_label_->height())));
+    hover_label_->show();
+  }
+  if (frame != hovered_frame_) {
+    hovered_frame_ = frame;
+    Q_EMIT frameHovered(frame);
+  }
+}
+
+void SceneWidget::leaveEvent(QEvent* event) {
+  hover_label_->hide();
+  hovered_frame_.clear();
+  Q_EMIT frameHovered({});
+  QOpenGLWidget::leaveEvent(event);
+}
+
+}  // namespace stillframe::viewer

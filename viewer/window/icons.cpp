@@ -1,0 +1,108 @@
+#include "viewer/window/icons.h"
+
+#include <QGuiApplication>
+#include <QPainter>
+#include <QPainterPath>
+#include <QPalette>
+#include <QPixmap>
+
+namespace stillframe::viewer {
+namespace {
+
+constexpr int kSize = 48;  // drawn large, scaled down by QIcon
+
+void triangle(QPainter& painter, qreal x, qreal width) {
+  const QPointF points[] = {{x, 10.0}, {x, 38.0}, {x + width, 24.0}};
+  painter.drawPolygon(points, 3);
+}
+
+void draw(QPainter& painter, const QPen& pen, TransportIcon icon) {
+  const auto outline = [&] {
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(pen);
+  };
+  switch (icon) {
+    case TransportIcon::Play:
+      triangle(painter, 13, 26);
+      return;
+    case TransportIcon::Pause:
+      painter.drawRect(12, 10, 9, 28);
+      painter.drawRect(27, 10, 9, 28);
+      return;
+    case TransportIcon::StepBack:
+      painter.drawRect(11, 10, 5, 28);
+      triangle(painter, 38, -20);
+      return;
+    case TransportIcon::StepForward:
+      painter.drawRect(32, 10, 5, 28);
+      triangle(painter, 10, 20);
+      return;
+    case TransportIcon::Loop: {
+      outline();
+      painter.drawArc(QRectF(11, 11, 26, 26), 60 * 16, 285 * 16);
+      painter.setBrush(pen.color());
+      painter.setPen(Qt::NoPen);
+      const QPointF head[] = {{27.0, 4.0}, {27.0, 20.0}, {38.0, 12.0}};
+      painter.drawPolygon(head, 3);
+      return;
+    }
+    case TransportIcon::Recenter:
+      outline();
+      painter.drawEllipse(QPointF(24, 24), 11, 11);
+      painter.drawLine(24, 4, 24, 16);
+      painter.drawLine(24, 32, 24, 44);
+      painter.drawLine(4, 24, 16, 24);
+      painter.drawLine(32, 24, 44, 24);
+      return;
+    case TransportIcon::Target:
+      outline();
+      painter.drawEllipse(QPointF(24, 24), 17, 17);
+      painter.drawEllipse(QPointF(24, 24), 8, 8);
+      painter.drawPoint(24, 24);
+      return;
+    case TransportIcon::SplitRight:
+      outline();
+      painter.drawRect(7, 10, 34, 28);
+      painter.drawLine(24, 10, 24, 38);
+      return;
+    case TransportIcon::SplitBelow:
+      outline();
+      painter.drawRect(7, 10, 34, 28);
+      painter.drawLine(7, 24, 41, 24);
+      return;
+    case TransportIcon::Close:
+      outline();
+      painter.drawLine(13, 13, 35, 35);
+      painter.drawLine(35, 13, 13, 35);
+      return;
+    case TransportIcon::Layers:
+      outline();
+      for (const qreal y : {13.0, 24.0, 35.0}) {
+        painter.drawLine(QPointF(9, y), QPointF(12, y));
+        painter.drawLine(QPointF(20, y), QPointF(40, y));
+      }
+      return;
+    case TransportIcon::Effects:
+      outline();
+      painter.drawEllipse(QPointF(24, 24), 15, 15);
+      painter.setBrush(pen.color());
+      painter.drawPie(QRectF(9, 9, 30, 30), 90 * 16, 180 * 16);
+      return;
+  }
+}
+
+}  // namespace
+
+QIcon transportIcon(TransportIcon icon) {
+  QPixmap pixmap(kSize, kSize);
+  pixmap.fill(Qt::transparent);
+  const QColor color = QGuiApplication::palette().color(QPalette::WindowText);
+  QPainter painter(&pixmap);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setBrush(color);
+  painter.setPen(Qt::NoPen);
+  draw(painter, QPen(color, 3.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin), icon);
+  return QIcon(pixmap);
+}
+
+}  // namespace stillframe::viewer

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <expected>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenegraph/camera/follow.h"
+#include "scenegraph/status.h"
+#include "viewer/layers/layer_choices.h"
+#include "viewer/window/dataset_loader.h"
+
+namespace stillframe::viewer {
+
+/// How an inspector starts.
+struct InspectorOptions {
+  std::vector<std::filesystem::path> files = {};  ///< opened at once; none: an empty window that waits for a drop
+  std::optional<std::string> time = {};           ///< integer ns, "+SECONDS", "start" or "end"; absent: start
+  std::optional<std::string> fixed_frame = {};    ///< absent: chosen automatically
+  scenegraph::CameraKind camera = scenegraph::CameraKind::Orbit;
+  std::optional<std::string> display_frame = {};  ///< absent: the fixed frame
+  scenegraph::FollowMode follow = scenegraph::FollowMode::Off;
+  LayerChoices layers = {};
+  int views = 1;
+  int width = 1280;  ///< of the window
+  int height = 800;
+  std::optional<std::filesystem::path> screenshot = {};  ///< save a picture of the complete window there, then quit
+};
+
+/// Runs `stillframe view`: makes the application (whose arguments are argc and argv) and a window, until it is closed.
+/// Returns the exit code; "NoDisplay" when the display that the environment names does not answer.
+std::expected<int, scenegraph::Status> runInspector(int argc, char** argv, const InspectorOptions& options,
+                                                    const RecordingOpener& opener);
+
+}  // namespace stillframe::viewer

@@ -1,0 +1,393 @@
+#include "viewer/window/inspector_window.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QDebug>
+#include <QDockWidget>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QMenuBar>
+#include <QMimeData>
+#include <QProgressBar>
+#include <QShortcut>
+#include <QSplitter>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <thread>
+
+#include "viewer/frames/frame_tree.h"
+#include "viewer/time/time_bar.h"
+#include "viewer/widget/scene_widget.h"
+#include "viewer/window/message_bar.h"
+
+namespace stillframe::viewer {
+namespace {
+
+constexpr int kProgressSteps = 1000;
+constexpr int kFrameTreeWidth = 370;
+
+std::vector<std::filesystem::path> localFiles(const QMimeData& data) {
+  std::vector<std::filesystem::path> files;
+  for (const QUrl& url : data.urls()) {
+    if (url.isLocalFile()) {
+      files.emplace_back(url.toLocalFile().toStdString());
+    }
+  }
+  return files;
+}
+
+}  // namespace
+
+InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions options, QWidget* parent)
+    : QMainWindow(parent),
+      options_(std::move(options)),
+      executor_(scenegraph::makeThreadPoolExecutor(std::max(2U, std::thread::hardware_concurrency()) - 1U)),
+      progress_(new QProgressBar(this)) {
+  setWindowTitle(QStringLiteral("Stillframe"));
+  setAcceptDrops(true);
+  resize(options_.width, options_.height);
+
+  auto* central = new QWidget(this);
+  auto* layout = new QVBoxLayout(central);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  messages_ = new MessageBar(central);
+  layout->addWidget(messages_);
+  view_splitter_ = new QSplitter(Qt::Horizontal, central);
+  view_splitter_->setChildrenCollapsible(false);
+  layout->addWidget(view_splitter_, 1);
+  setCentralWidget(central);
+
+  auto* time_tool_bar = new QToolBar(tr("Time"), this);  // a tool bar, so that it is as wide as the window
+  time_tool_bar->setObjectName(QStringLiteral("timeToolBar"));
+  time_tool_bar->setMovable(false);
+  time_tool_bar->toggleViewAction()->setEnabled(false);
+  time_bar_ = new TimeBar(time_tool_bar);
+  time_tool_bar->addWidget(time_bar_);
+  addToolBar(Qt::BottomToolBarArea, time_tool_bar);
+
+  auto* dock = new QDockWidget(tr("Frames"), this);
+  dock->setObjectName(QStringLiteral("framesDock"));
+  frame_tree_ = new FrameTree(dock);
+  dock->setWidget(frame_tree_);
+  addDockWidget(Qt::RightDockWidgetArea, dock);
+  resizeDocks({dock}, {kFrameTreeWidth}, Qt::Horizontal);
+
+  progress_->setObjectName(QStringLiteral("progress"));
+  progress_->setRange(0, kProgressSteps);
+  progress_->setMaximumWidth(220);
+  progress_->setMaximumHeight(14);
+  progress_->hide();
+  statusBar()->addPermanentWidget(progress_);
+
+  connect(time_bar_, &TimeBar::timeChanged, this, [this](tf::TimePoint time) {
+    for (ViewPanel* panel : views_) {
+      panel->view().setTime(time);
+    }
+    frame_tree_->setTime(time);
+    is_time_untouched_ = false;
+  });
+  connect(time_bar_, &TimeBar::refused, this,
+          [this](const QString& message) { messages_->showMessage(scenegraph::StatusLevel::Warn, message); });
+  connectFrames();
+
+  loader_ = new DatasetLoader(std::move(opener), this);
+  connect(loader_, &DatasetLoader::opened, this, &InspectorWindow::onOpened);
+  connect(loader_, &DatasetLoader::progressed, this, &InspectorWindow::onProgress);
+  connect(loader_, &DatasetLoader::loaded, this, &InspectorWindow::onLoaded);
+  connect(loader_, &DatasetLoader::failed, this, &InspectorWindow::onFailed);
+
+  buildMenus();
+  buildShortcuts();
+  for (int i = 0; i < std::max(1, options_.views); ++i) {
+    addView();
+  }
+  if (options_.files.empty()) {
+    statusBar()->showMessage(tr("Drop recordings here, or choose File > Open"));
+  } else {
+    openFiles(options_.files);
+  }
+}
+
+void InspectorWindow::connectFrames() {
+  connect(frame_tree_, &FrameTree::framePicked, this, [this](const QString& frame) {
+    SceneWidget& view = activeView().view();
+    view.setSelection(Selection{frame.toStdString()});
+    view.frameOrigin(frame.toStdString());
+  });
+  connect(frame_tree_, &FrameTree::frameActivated, this, [this](const QString& frame) {
+    SceneWidget& view = activeView().view();
+    view.setSelection(Selection{frame.toStdString()});
+    view.frameSelection();
+  });
+  connect(frame_tree_, &FrameTree::hiddenFramesEdited, this,
+          [this](const FrameTree::Names& hidden) { activeView().setHiddenFrames(hidden); });
+  connect(frame_tree_, &FrameTree::timeRequested, time_bar_, &TimeBar::setTime);
+  connect(qApp, &QApplication::focusChanged, this, [this](QWidget*, QWidget* now) {
+    for (ViewPanel* panel : views_) {
+      if (now != nullptr && panel->isAncestorOf(now)) {
+        setActiveView(*panel);
+      }
+    }
+  });
+}
+
+void InspectorWindow::setActiveView(ViewPanel& panel) {
+  active_view_ = &panel;
+  frame_tree_->setHiddenFrames(panel.hiddenFrames());
+}
+
+InspectorWindow::~InspectorWindow() {
+  delete loader_;  // joins the worker, which reads the recording
+  for (ViewPanel* panel : views_) {
+    panel->disconnect(this);
+    delete panel;  // before the executor, which their layers use
+  }
+}
+
+void InspectorWindow::buildMenus() {
+  QMenu* file = menuBar()->addMenu(tr("&File"));
+  QAction* open = file->addAction(tr("&Open..."));
+  open->setShortcut(QKeySequence::Open);
+  connect(open, &QAction::triggered, this, [this] {
+    std::vector<std::filesystem::path> files;
+    for (const QString& name : QFileDialog::getOpenFileNames(this, tr("Open recordings"), {},
+                                                             tr("MCAP recordings (*.mcap);;All files (*)"))) {
+      files.emplace_back(name.toStdString());
+    }
+    if (!files.empty()) {
+      openFiles(std::move(files));
+    }
+  });
+  QAction* quit = file->addAction(tr("&Quit"));
+  quit->setShortcut(QKeySequence::Quit);
+  connect(quit, &QAction::triggered, this, &QWidget::close);
+
+  QMenu* view = menuBar()->addMenu(tr("&View"));
+  connect(view->addAction(tr("Add view to the &right")), &QAction::triggered, this,
+          [this] { addView(views_.empty() ? nullptr : views_.back(), Qt::Horizontal); });
+  connect(view->addAction(tr("Add view &below")), &QAction::triggered, this,
+          [this] { addView(views_.empty() ? nullptr : views_.back(), Qt::Vertical); });
+  view->addSeparator();
+  view->addAction(findChild<QDockWidget*>(QStringLiteral("framesDock"))->toggleViewAction());
+}
+
+void InspectorWindow::buildShortcuts() {
+  const auto bind = [this](const QKeySequence& keys, auto action) {
+    connect(new QShortcut(keys, this), &QShortcut::activated, time_bar_, action);
+  };
+  bind(Qt::Key_Space, [this] { time_bar_->togglePlaying(); });
+  bind(Qt::Key_Left, [this] { time_bar_->step(-1); });
+  bind(Qt::Key_Right, [this] { time_bar_->step(1); });
+}
+
+void InspectorWindow::openFiles(std::vector<std::filesystem::path> files) {
+  statusBar()->showMessage(
+      files.empty() ? QString() : tr("Opening %1").arg(QString::fromStdString(files.front().filename().string())));
+  is_loading_ = true;
+  progress_->setRange(0, 0);
+  progress_->show();
+  loader_->open(std::move(files));
+}
+
+ViewPanel& InspectorWindow::addView(ViewPanel* like, Qt::Orientation orientation) {
+  auto* panel = new ViewPanel;
+  panel->setFrameMemory(frame_memory_);
+  views_.push_back(panel);
+  if (active_view_ == nullptr) {
+    active_view_ = panel;
+  }
+  connect(&panel->view(), &SceneWidget::sceneUpdated, this, [this, panel] {
+    if (panel == active_view_) {
+      frame_tree_->setHiddenFrames(panel->hiddenFrames());
+    }
+  });
+  connect(panel, &ViewPanel::splitRequested, this, [this, panel](Qt::Orientation wanted) { addView(panel, wanted); });
+  connect(panel, &ViewPanel::closeRequested, this, [this, panel] { closeView(*panel); });
+  connect(panel, &ViewPanel::refused, this,
+          [this](const QString& message) { messages_->showMessage(scenegraph::StatusLevel::Warn, message); });
+  connect(&panel->view(), &SceneWidget::frameHovered, this,
+          [this](const QString& frame) { statusBar()->showMessage(frame); });
+
+  QSplitter* splitter = like == nullptr ? view_splitter_ : qobject_cast<QSplitter*>(like->parentWidget());
+  if (like != nullptr && splitter->orientation() != orientation) {
+    // `like` shares its place with the new view.
+    auto* inner = new QSplitter(orientation);
+    inner->setChildrenCollapsible(false);
+    const QList<int> sizes = splitter->sizes();
+    splitter->replaceWidget(splitter->indexOf(like), inner);
+    inner->addWidget(like);
+    splitter->setSizes(sizes);
+    splitter = inner;
+  }
+  splitter->insertWidget(like == nullptr ? splitter->count() : splitter->indexOf(like) + 1, panel);
+  QList<int> equal;
+  equal.fill(1000, splitter->count());
+  splitter->setSizes(equal);
+  fillView(*panel);
+  ViewState state = like == nullptr ? panel->state() : like->state();
+  state.shows_layers = views_.size() == 1 && options_.views <= 1;  // side by side, the picture needs the room
+  if (like != nullptr) {
+    like->show();
+  }
+  panel->setState(state);
+  return *panel;
+}
+
+void InspectorWindow::closeView(ViewPanel& panel) {
+  if (views_.size() == 1) {
+    return;  // the window keeps one
+  }
+  std::erase(views_, &panel);
+  if (active_view_ == &panel) {
+    setActiveView(*views_.front());
+  }
+  QWidget* place = panel.parentWidget();
+  panel.hide();
+  panel.setParent(nullptr);
+  panel.deleteLater();
+  // Splitters that hold nothing any more go too.
+  while (place != view_splitter_ && qobject_cast<QSplitter*>(place)->count() == 0) {
+    QWidget* outer = place->parentWidget();
+    place->setParent(nullptr);
+    place->deleteLater();
+    place = outer;
+  }
+}
+
+void InspectorWindow::fillView(ViewPanel& panel) {
+  if (dataset_ == nullptr) {
+    return;
+  }
+  panel.setDataset(dataset_, *executor_, options_.layers);
+  if (options_.fixed_frame) {
+    panel.view().setFixedFrame(options_.fixed_frame);
+  }
+  panel.view().setTime(time_bar_->time());
+  panel.view().setCameraKind(options_.camera);
+  if (options_.display_frame) {
+    panel.view().setDisplayFrame(options_.display_frame);
+    panel.view().setFollow(options_.follow);
+  }
+}
+
+void InspectorWindow::onOpened(const std::shared_ptr<scenegraph::Dataset>& dataset) {
+  dataset_ = dataset;
+  is_loading_ = true;
+  progress_->show();
+  messages_->hide();
+  setWindowTitle(QString::fromStdString(dataset->name()) + QStringLiteral(" - Stillframe"));
+  statusBar()->showMessage(tr("Loading %1").arg(QString::fromStdString(dataset->name())));
+  progress_->setRange(0, kProgressSteps);
+  time_bar_->setDataset(dataset);
+  is_time_untouched_ = true;
+  takeRange();
+  for (ViewPanel* panel : views_) {
+    fillView(*panel);
+  }
+  frame_tree_->setDataset(dataset);
+}
+
+void InspectorWindow::takeRange() {
+  const auto range = dataset_->timeRange();
+  if (!range) {
+    return;
+  }
+  const TimeRange times{range->first, range->second};
+  time_bar_->setRange(times);
+  if (is_time_untouched_) {
+    const auto wanted = options_.time ? parseTime(QString::fromStdString(*options_.time), times) : std::nullopt;
+    if (options_.time && !wanted) {
+      messages_->showMessage(scenegraph::StatusLevel::Warn,
+                             tr("\"%1\" is not a time: write nanoseconds, +SECONDS, start or end")
+                                 .arg(QString::fromStdString(*options_.time)));
+    }
+    time_bar_->setTime(wanted.value_or(times.first));
+    is_time_untouched_ = true;
+  }
+}
+
+void InspectorWindow::onProgress(double fraction) {
+  progress_->setValue(static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kProgressSteps));
+  takeRange();
+  for (ViewPanel* panel : views_) {
+    panel->takeGrowth();
+  }
+  frame_tree_->refreshLater();
+}
+
+void InspectorWindow::onLoaded() {
+  is_loading_ = false;
+  progress_->hide();
+  statusBar()->clearMessage();
+  onProgress(1.0);
+  for (ViewPanel* panel : views_) {
+    panel->homeUnlessTouched();
+  }
+  frame_tree_->refreshNow();
+  Q_EMIT loaded();
+  takeScreenshotWhenComplete();
+}
+
+void InspectorWindow::onFailed(const scenegraph::Status& status) {
+  messages_->showMessage(scenegraph::StatusLevel::Error, QString::fromStdString(status.message));
+  statusBar()->clearMessage();
+  if (options_.screenshot) {
+    failUnattended(QString::fromStdString(status.message));
+  }
+  is_loading_ = loader_->isBusy();
+  if (!is_loading_) {
+    progress_->hide();
+  } else {
+    progress_->setRange(0, kProgressSteps);
+  }
+}
+
+bool InspectorWindow::isComplete() const {
+  return dataset_ != nullptr && !is_loading_ && std::ranges::all_of(views_, [](ViewPanel* panel) {
+           return panel->view().framesDrawn() > 0 && panel->view().scene() != nullptr &&
+                  !panel->view().scene()->isPending();
+         });
+}
+
+void InspectorWindow::takeScreenshotWhenComplete() {
+  if (!options_.screenshot) {
+    return;
+  }
+  for (ViewPanel* panel : views_) {
+    panel->view().applyTick();
+    connect(&panel->view(), &QOpenGLWidget::frameSwapped, this, &InspectorWindow::takeScreenshotWhenComplete,
+            static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::UniqueConnection));
+  }
+  if (isComplete()) {
+    const auto file = *std::exchange(options_.screenshot, std::nullopt);
+    if (grab().save(QString::fromStdString(file.string()))) {
+      close();
+    } else {
+      failUnattended(tr("cannot write %1").arg(QString::fromStdString(file.string())));
+    }
+  }
+}
+
+void InspectorWindow::failUnattended(const QString& message) {
+  qCritical().noquote() << message;
+  QCoreApplication::exit(1);
+}
+
+void InspectorWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (!localFiles(*event->mimeData()).empty()) {
+    event->acceptProposedAction();
+  }
+}
+
+void InspectorWindow::dropEvent(QDropEvent* event) {
+  auto files = localFiles(*event->mimeData());
+  if (!files.empty()) {
+    event->acceptProposedAction();
+    openFiles(std::move(files));
+  }
+}
+
+}  // namespace stillframe::viewer

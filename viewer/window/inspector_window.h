@@ -1,0 +1,92 @@
+#pragma once
+
+#include <QMainWindow>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "scenegraph/executor.h"
+#include "viewer/frames/frame_memory.h"
+#include "viewer/time/time_text.h"
+#include "viewer/view/view_panel.h"
+#include "viewer/window/dataset_loader.h"
+#include "viewer/window/inspector.h"
+
+class QProgressBar;
+class QSplitter;
+
+namespace stillframe::viewer {
+
+class FrameTree;
+class MessageBar;
+class TimeBar;
+
+/// The standalone inspector: views side by side over one recording, time bar, frame tree, messages.
+///
+/// Knows no file format: recordings come from the opener. Owns the tracker time (TimeBar) and hands it to every view;
+/// views share nothing else but the dataset. GUI thread.
+class InspectorWindow : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  InspectorWindow(RecordingOpener opener, InspectorOptions options, QWidget* parent = nullptr);
+  ~InspectorWindow() override;
+
+  /// Opens recordings in place of the present one, which stays when they cannot be read.
+  void openFiles(std::vector<std::filesystem::path> files);
+  /// Adds a view in the state of `like`, beside or below it; without one, a fresh view at the end.
+  ViewPanel& addView(ViewPanel* like = nullptr, Qt::Orientation orientation = Qt::Horizontal);
+  void closeView(ViewPanel& panel);
+
+  [[nodiscard]] const std::vector<ViewPanel*>& views() const noexcept { return views_; }
+  /// The view that had the focus last: what the frames panel is about.
+  [[nodiscard]] ViewPanel& activeView() noexcept { return *active_view_; }
+  [[nodiscard]] TimeBar& timeBar() noexcept { return *time_bar_; }
+  [[nodiscard]] FrameTree& frameTree() noexcept { return *frame_tree_; }
+  [[nodiscard]] MessageBar& messageBar() noexcept { return *messages_; }
+  [[nodiscard]] const std::shared_ptr<scenegraph::Dataset>& dataset() const noexcept { return dataset_; }
+  [[nodiscard]] bool isLoading() const noexcept { return is_loading_; }
+  /// Whether everything is loaded, decoded and drawn.
+  [[nodiscard]] bool isComplete() const;
+
+ Q_SIGNALS:
+  /// The recording is loaded to its end.
+  void loaded();
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+ private:
+  void buildMenus();
+  void buildShortcuts();
+  void onOpened(const std::shared_ptr<scenegraph::Dataset>& dataset);
+  void onProgress(double fraction);
+  void onLoaded();
+  void onFailed(const scenegraph::Status& status);
+  void takeRange();
+  void fillView(ViewPanel& panel);
+  void connectFrames();
+  void setActiveView(ViewPanel& panel);
+  void takeScreenshotWhenComplete();
+  /// Ends the program with exit code 1: nobody is there to read a message bar.
+  void failUnattended(const QString& message);
+
+  InspectorOptions options_;
+  std::unique_ptr<scenegraph::Executor> executor_;  // outlives the views: see the destructor
+  std::shared_ptr<scenegraph::Dataset> dataset_;
+  DatasetLoader* loader_ = nullptr;
+  bool is_loading_ = false;
+  bool is_time_untouched_ = true;
+  FrameMemory frame_memory_;  // before the views, which use it
+  std::vector<ViewPanel*> views_;
+  ViewPanel* active_view_ = nullptr;  // one of views_
+
+  MessageBar* messages_ = nullptr;
+  QSplitter* view_splitter_ = nullptr;
+  TimeBar* time_bar_ = nullptr;
+  FrameTree* frame_tree_ = nullptr;
+  QProgressBar* progress_ = nullptr;
+};
+
+}  // namespace stillframe::viewer

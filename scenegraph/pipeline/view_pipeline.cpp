@@ -120,6 +120,10 @@ void ViewPipeline::Impl::dropStages() {
 /// Whoever uses the context between frames (a widget, a painter) leaves state that OSG does not know of. Modes are read
 /// back, for OSG 3.6's dirtyAllModes() only negates what it remembers: half of them are then wrong. The unit that is
 /// active it only ever remembers: a texture would be bound to another unit than it should.
+///
+/// Arrays OSG knows by their address alone: one made where another lay that was drawn last, and is gone since, would
+/// be drawn from the other's buffer, unless a pass without arrays came in between. dirtyAllVertexArrays() does nothing
+/// in OSG 3.6, so they are all let go of.
 void ViewPipeline::Impl::adoptGlState() {
   osg::State& state = *window->getState();
   for (const GLenum mode : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_PROGRAM_POINT_SIZE, GL_POINT_SPRITE,
@@ -128,7 +132,10 @@ void ViewPipeline::Impl::adoptGlState() {
   }
   gl::selectTextureUnits(state.getActiveTextureUnit(), state.getClientActiveTextureUnit());
   state.dirtyAllAttributes();
-  state.dirtyAllVertexArrays();
+  if (state.getCurrentVertexArrayState() != nullptr) {  // there from the first frame on
+    state.lazyDisablingOfVertexAttributes();
+    state.applyDisablingOfVertexAttributes();
+  }
 }
 
 GLuint ViewPipeline::Impl::textureId(const std::string& target) const {

@@ -32,8 +32,6 @@ std::expected<void, scenegraph::Status> addLayerIds(scenegraph::OffscreenRendere
       layers[i]->layer->setVisible(i == shown);
     }
     session.showTime(session.time());
-    // Twice: tiles of a grid that was hidden are not all there in the first frame after it is shown again.
-    (void)renderer.render(session.scene().root(), view, plain);
     const auto alone = renderer.render(session.scene().root(), view, plain);
     if (!alone) {
       result = std::unexpected(alone.error());

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <utility>
@@ -132,6 +133,56 @@ TEST_F(ViewPipelineTest, DrawsIntoWhicheverFramebufferItIsHanded) {
   present(second);
   EXPECT_EQ(second.pixel(16, 16), (Rgb{0, 255, 0}));
   EXPECT_EQ(first.pixel(16, 16), (Rgb{255, 0, 0}));
+}
+
+/// Vertices that always lie at the same place in memory: one at a time.
+class PlacedVertices : public osg::Vec3Array {
+ public:
+  using osg::Vec3Array::Vec3Array;
+  static void* operator new(std::size_t size) {
+    static std::array<std::max_align_t, 64> place;
+    EXPECT_LE(size, sizeof(place));
+    return place.data();
+  }
+  static void operator delete(void* /*place*/) {}
+};
+
+TEST_F(ViewPipelineTest, DrawsAnArrayThatLiesWhereAnotherLayBefore) {
+  constexpr unsigned kPlaceAttribute = 7;
+  const auto by_attribute = makeProgram("test_attribute",
+                                        "#version 450 compatibility\nlayout(location = 7) in vec3 a_place;\n"
+                                        "out vec4 v_color;\nvoid main() {\n"
+                                        "  gl_Position = gl_ModelViewProjectionMatrix * vec4(a_place, 1.0);\n"
+                                        "  v_color = gl_Color;\n}\n",
+                                        kTestFragment);
+  pipeline_->setView(
+      {.eye_from_fixed = lookAt({0, 0, 3}, {0, 0, 0}, {0, 1, 0}), .is_orthographic = true, .vertical_extent_m = 2.0});
+  const void* place = nullptr;
+  for (const bool is_attribute : {false, true}) {
+    for (const float side : {-1.0F, 1.0F, -1.0F}) {
+      const osg::ref_ptr<osg::Geode> shape = makeQuad(1, 1, 0, {1, 0, 0, 1});
+      osg::Geometry& geometry = *shape->getDrawable(0)->asGeometry();
+      osg::ref_ptr<osg::Vec3Array> half = new PlacedVertices;
+      EXPECT_TRUE(place == nullptr || place == half.get());
+      place = half.get();
+      for (const auto& [x, y] : {std::pair{0.0F, -1.0F}, {side, -1.0F}, {0.0F, 1.0F}, {side, 1.0F}}) {
+        half->push_back({x, y, 0});
+      }
+      if (is_attribute) {
+        geometry.setVertexAttribArray(kPlaceAttribute, half, osg::Array::BIND_PER_VERTEX);
+        geometry.getOrCreateStateSet()->setAttributeAndModes(by_attribute);
+      } else {
+        geometry.setVertexArray(half);
+      }
+      root_->addChild(shape);
+      ASSERT_TRUE(pipeline_->renderLinear(32, 32));  // nothing is drawn after the scene, which would hide it
+      const LinearFrame frame = pipeline_->readLinear();
+      const auto red = [&](std::size_t x) { return frame.rgba[4 * (32 * 16 + x)] > 0.0F; };
+      EXPECT_EQ(red(8), side < 0) << side << (is_attribute ? ", an attribute" : "");
+      EXPECT_EQ(red(24), side > 0) << side << (is_attribute ? ", an attribute" : "");
+      root_->removeChildren(0, 1);
+    }
+  }
 }
 
 TEST_F(ViewPipelineTest, FillsTheOutputAtEverySize) {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "nodes/flat_order.h"
 #include "nodes/osg_math.h"
 
 namespace stillframe::nodes {
@@ -46,6 +47,11 @@ void GridMapLayer::close() {
   geometry_ = nullptr;
 }
 
+std::optional<TopicLayer::Anchor> GridMapLayer::load(const scenegraph::Tick& tick) {
+  flat_step_ = flatDepthStep(FlatKind::GridMap, tick.order, tick.of_type);
+  return SampleLayer::load(tick);
+}
+
 TopicLayer::Anchor GridMapLayer::anchorOf(const GridSurface& map) const {
   return {map.source().frame_id, map.source().origin};
 }
@@ -54,6 +60,7 @@ void GridMapLayer::draw(const Placement& /*fixed_from_data*/) {
   if (const Choice choice = choose(chosen(), *product()); choice != choice_) {
     build(choice);
   }
+  state_.setDepthStep(choice_->height.empty() ? flat_step_ : 0.0F);
   paint();
 }
 

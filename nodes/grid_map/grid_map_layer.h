@@ -45,6 +45,7 @@ class GridMapLayer final : public SampleLayer<GridSurface, GridMapSettings> {
   void open(const scenegraph::LayerContext& context) override;
   void close() override;
   void show() override;
+  [[nodiscard]] std::optional<Anchor> load(const scenegraph::Tick& tick) override;
   [[nodiscard]] Anchor anchorOf(const GridSurface& map) const override;
   void draw(const Placement& fixed_from_data) override;
   [[nodiscard]] osg::BoundingBoxd box() const override { return box_; }
@@ -53,7 +54,8 @@ class GridMapLayer final : public SampleLayer<GridSurface, GridMapSettings> {
   void paint();
 
   std::optional<Choice> choice_;
-  osg::BoundingBoxd box_;  // of what is drawn, in the map's own frame
+  float flat_step_ = 1.0F;  // where it lies when flat
+  osg::BoundingBoxd box_;   // of what is drawn, in the map's own frame
   std::size_t triangles_ = 0;
   osg::ref_ptr<osg::Geometry> geometry_;
   GridMapState state_;

@@ -7,14 +7,18 @@
 namespace stillframe::nodes {
 GridMapState::GridMapState()
     : state_(new osg::StateSet),
+      surface_program_(scenegraph::makeProgram("grid_map", shaders::stillframe_nodes::k_grid_map_vert,
+                                               shaders::stillframe_nodes::k_grid_map_frag)),
+      flat_program_(scenegraph::makeProgram("grid_map_flat", shaders::stillframe_nodes::k_grid_map_vert,
+                                            shaders::stillframe_nodes::k_grid_map_flat_frag)),
+      depth_step_(new osg::Uniform("u_depth_step", 0.0F)),
       coloring_(*state_),
       cell_size_(new osg::Uniform("u_cell_size", osg::Vec2(1, 1))),
       cell_count_(new osg::Uniform("u_cell_count", 1, 1)),
       missing_is_hole_(new osg::Uniform("u_missing_is_hole", false)),
       shading_(new osg::Uniform("u_shading", false)),
       opacity_(new osg::Uniform("u_opacity", 1.0F)) {
-  namespace shaders = shaders::stillframe_nodes;
-  state_->setAttributeAndModes(scenegraph::makeProgram("grid_map", shaders::k_grid_map_vert, shaders::k_grid_map_frag));
+  state_->setAttributeAndModes(surface_program_);
   state_->addUniform(new osg::Uniform("u_cells", 0));
   for (const auto& uniform : {cell_size_, cell_count_, missing_is_hole_, shading_, opacity_}) {
     state_->addUniform(uniform);
@@ -30,6 +34,19 @@ void GridMapState::apply(const GridMapSettings& settings, bool is_surface, bool 
   shading_->set(settings.shading && is_surface);
   opacity_->set(static_cast<float>(settings.opacity));
   scenegraph::setBlended(*state_, settings.opacity < 1.0 || is_translucent);
+}
+
+void GridMapState::setDepthStep(float step) {
+  osg::Program* const program = step > 0.0F ? flat_program_ : surface_program_;
+  if (state_->getAttribute(osg::StateAttribute::PROGRAM) != program) {
+    state_->setAttributeAndModes(program);
+    if (step > 0.0F) {
+      state_->addUniform(depth_step_);
+    } else {
+      state_->removeUniform(depth_step_);
+    }
+  }
+  depth_step_->set(step);
 }
 
 void GridMapState::setCells(const glm::dvec2& cell_size_m, std::uint32_t columns, std::uint32_t rows) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <osg/Program>
 #include <osg/StateSet>
 #include <osg/Texture2D>
 #include <osg/Uniform>
@@ -27,12 +28,17 @@ class GridMapState {
 
   /// `is_translucent`: the cells' own alpha counts.
   void apply(const GridMapSettings& settings, bool is_surface, bool is_translucent);
+  /// How many steps it lies behind lines in its plane, when flat (flat_order.h); 0 for a surface.
+  void setDepthStep(float step);
   void setCells(const glm::dvec2& cell_size_m, std::uint32_t columns, std::uint32_t rows);
   /// The texture of Rgb and Value; nullptr for Flat.
   void setColor(MapColorMode mode, osg::Texture2D* texture, const RangeMap& map);
 
  private:
   osg::ref_ptr<osg::StateSet> state_;
+  osg::ref_ptr<osg::Program> surface_program_;
+  osg::ref_ptr<osg::Program> flat_program_;
+  osg::ref_ptr<osg::Uniform> depth_step_;
   ColoringState coloring_;
   osg::ref_ptr<osg::Uniform> cell_size_;
   osg::ref_ptr<osg::Uniform> cell_count_;

@@ -5,6 +5,7 @@
 #include <osg/Texture2D>
 
 #include "generated/stillframe_nodes/shaders.h"
+#include "nodes/flat_order.h"
 #include "nodes/osg_math.h"
 #include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
@@ -45,6 +46,20 @@ osg::ref_ptr<osg::Geometry> makeQuad(const GridHeader& header, std::uint32_t x, 
   quad->setTexCoordArray(0, cells, osg::Array::BIND_PER_VERTEX);
   quad->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, 4));
   return quad;
+}
+
+/// Writes a block's cells into an image whose rows are `stride` bytes apart.
+void copyBlock(const GridBlock& block, unsigned char* to, std::size_t stride) {
+  const std::int8_t* from = block.cells.data();
+  for (std::uint32_t row = 0; row < block.height; ++row, to += stride) {
+    if (block.isUniform()) {
+      std::memset(to, static_cast<unsigned char>(block.cells.front()), block.width);
+    } else if (block.width == 64) {
+      std::memcpy(to, from + std::size_t{row} * 64, 64);  // nearly all: a few instructions instead of a call
+    } else {
+      std::memcpy(to, from + std::size_t{row} * block.width, block.width);
+    }
+  }
 }
 
 }  // namespace
@@ -92,7 +107,7 @@ void GridTiles::apply(const OccupancyGridSettings& settings) {
 }
 
 void GridTiles::setOrder(std::uint32_t order, std::uint32_t of_type) {
-  step_->set(static_cast<float>(of_type > order ? of_type - order : 1));
+  step_->set(flatDepthStep(FlatKind::OccupancyGrid, order, of_type));
   if (order_ != order) {
     order_ = order;
     setBin();
@@ -168,7 +183,8 @@ void GridTiles::write(Tile& tile, const GridHeader& header, const GridCells& cel
   }
   const int width = is_uniform ? 1 : static_cast<int>(tile.width);
   const int height = is_uniform ? 1 : static_cast<int>(tile.height);
-  if (tile.image == nullptr || tile.image->s() != width || tile.image->t() != height) {
+  const bool is_kept = tile.image != nullptr && tile.image->s() == width && tile.image->t() == height;
+  if (!is_kept) {
     tile.image = new osg::Image;
     tile.image->allocateImage(width, height, 1, GL_RED, GL_UNSIGNED_BYTE, 1);
     tile.image->setInternalTextureFormat(kR8);
@@ -180,16 +196,12 @@ void GridTiles::write(Tile& tile, const GridHeader& header, const GridCells& cel
     const std::size_t columns = (tile.width + header.block_edge - 1) / header.block_edge;
     for (std::size_t i = 0; i < tile.blocks.size(); ++i) {
       const GridBlock& block = blockAt(i);
+      if (is_kept && shown_->state.cells.blocks()[tile.blocks[i]].get() == &block) {
+        continue;  // the texels are there
+      }
       const auto left = static_cast<unsigned>(i % columns * header.block_edge);
       const auto bottom = static_cast<unsigned>(i / columns * header.block_edge);
-      for (std::uint32_t row = 0; row < block.height; ++row) {
-        unsigned char* const to = tile.image->data(left, bottom + row);
-        if (block.isUniform()) {
-          std::memset(to, static_cast<unsigned char>(block.cells.front()), block.width);
-        } else {
-          std::memcpy(to, block.cells.data() + std::size_t{row} * block.width, block.width);
-        }
-      }
+      copyBlock(block, tile.image->data(left, bottom), tile.width);
     }
   }
   tile.image->dirty();

@@ -22,10 +22,8 @@ namespace stillframe::nodes {
 /// Another state of the same size rewrites and uploads only the tiles that differ; a tile of one value is a texture of
 /// one texel. Everything that settings change is a uniform or a mode.
 ///
-/// Flat things in one plane must not fight over the depth buffer. The fragment shader moves a grid's depth a little
-/// away from the eye, in steps: the first of `of_type` grids by the most, the last by one step, lines and points by
-/// none. The step goes with the precision of the depth buffer at that depth, whichever way round that is, and so it
-/// holds at any distance, in our reverse-Z targets and in a stock viewer. GUI thread.
+/// Its depth is that of flat things (flat_depth.glsl), by its place among them (flat_order.h): it holds at any
+/// distance, in our reverse-Z targets and in a stock viewer. GUI thread.
 class GridTiles {
  public:
   /// Puts the grid's state on `node`, its matrix and its children.

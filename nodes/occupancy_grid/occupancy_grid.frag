@@ -1,21 +1,16 @@
 #version 450 compatibility
 #include "common.glsl"
-// Colours of occupancy cells, and their depth (grid_tiles.h says why). In: v_cell, cells of the tile. Uniforms: u_cells,
-// the int8 values as bytes; u_depth_step, how many steps the grid lies behind lines in its plane.
+#include "flat_depth.glsl"
+// Colours of occupancy cells, and their depth among flat things. In: v_cell, cells of the tile. Uniforms: u_cells, the
+// int8 values as bytes.
 const int kCostmap = 1;
 const int kRaw = 2;
 const float kMostSamples = 4.0;
-const float kRelativeStep = 1e-3;
-const float kAbsoluteStep = 2.5e-7;
-const float kOrthographicStep = 2e-6;
-const float kSlopePixels = 2.0;
 
 uniform sampler2D u_cells;
 uniform int u_color_scheme;
 uniform float u_alpha;
-uniform float u_depth_step;
 in vec2 v_cell;
-flat in ivec2 v_depth_kind;
 
 // sRGB-encoded, alpha 0 or 1, of a byte 0..255.
 vec4 cellColor(int value) {
@@ -62,23 +57,10 @@ vec4 pixelColor() {
   return sum.a > 0.0 ? vec4(sum.rgb / sum.a, sum.a / (columns * rows)) : vec4(0.0);
 }
 
-// gl_FragCoord.z moved away from the eye. A line in the plane has the depth of its own middle in all the pixels that it
-// covers: that is a pixel or two of the plane's slope away. The steps keep grids apart beyond what rounding can do. With
-// q = 1 near and 0 far away either way round, q / (1 + step) keeps its order and never leaves the range; in perspective
-// q goes with the reciprocal of the distance, so that the relative step is one of distance.
-float steppedDepth() {
-  bool is_reversed = v_depth_kind.x == 1;
-  float q = is_reversed ? gl_FragCoord.z : 1.0 - gl_FragCoord.z;
-  float slope = max(abs(dFdx(gl_FragCoord.z)), abs(dFdy(gl_FragCoord.z)));
-  vec2 step_size = v_depth_kind.y == 1 ? vec2(kRelativeStep, kAbsoluteStep) : vec2(0.0, kOrthographicStep);
-  q /= 1.0 + u_depth_step * step_size.x + (kSlopePixels * slope + u_depth_step * step_size.y) / max(q, 1e-12);
-  return is_reversed ? q : 1.0 - q;
-}
-
 void main() {
   vec4 color = pixelColor();
   color.a *= u_alpha;
-  gl_FragDepth = steppedDepth();
+  gl_FragDepth = sfFlatDepth();
   if (color.a <= 0.0) {
     discard;
   }

@@ -1,12 +1,17 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
+#include <osgDB/ReadFile>
 
 #include "nodes/points/colormap.h"
+#include "scenegraph/export/osgt_export.h"
 #include "tests/nodes/grid_map_builder.h"
 #include "tests/nodes/scene_picture.h"
+#include "tests/support/golden.h"
+#include "tests/support/plain_viewer.h"
 
 namespace stillframe::test {
 namespace {
@@ -134,6 +139,72 @@ TEST_F(GridMapPicture, DrawsCellColoursWithTheirAlpha) {
   const auto picture = draw(1_s, fromAbove());
   EXPECT_EQ(pixel(picture, 120, 80), (Bytes3{200, 100, 50}));
   EXPECT_EQ(drawnPixels(picture), 50 * 50) << "the other cell is transparent";
+}
+
+/// A hill beside a pit, coloured by a cost with a missing corner, and what it looks like in a stock viewer.
+class GridMapGolden : public ScenePictureTest {
+ protected:
+  void openHill() {
+    GridMapBuilder builder(80, 60);
+    builder.origin(turn(0.3, -7, -6, 0));
+    builder.layer("elevation", [](auto column, auto row) {
+      const double x = (column - 30.0) / 12;
+      const double y = (row - 30.0) / 12;
+      const bool is_hole = column >= 60 && column < 66 && row >= 20 && row < 26;
+      return is_hole ? kNan : 2.2 * std::exp(-x * x - y * y) - 1.2 * std::exp(-(x - 3) * (x - 3) - y * y);
+    });
+    builder.layer("cost", [](auto column, auto row) { return column + row < 25 ? kNan : (column % 20) * 5.0; });
+    auto map = builder.build();
+    map.cell_size_m = {0.2, 0.2};
+    open(datasetOf(std::move(map)), "map");
+    add("grid");
+    add("/map", {{"color_field", "cost"}, {"colormap", "viridis"}, {"missing_color", "#c80000"}});
+  }
+  const scenegraph::CameraView view_{.eye_from_fixed = scenegraph::lookAt({6, -9, 8}, {-1.5, 1, 0}, {0, 0, 1})};
+};
+
+TEST_F(GridMapGolden, AHillWithHolesAndAMissingCorner) {
+  openHill();
+  const auto picture = draw(1_s, view_, 320, 240);
+  EXPECT_TRUE(matchesGolden(picture, "grid_map"));
+  int red = 0;
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      const Bytes3 color = pixel(picture, x, y);
+      red += color[0] > 60 && color[1] == 0 && color[2] == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(red, 500) << "cells without a cost";
+  EXPECT_LT(red, 4000);
+  EXPECT_GT(drawnPixels(picture), 15000);
+  const auto box = scene_->findLayer("/map")->layer->boundsInFixed();
+  EXPECT_NEAR(box.zMax(), 2.2, 0.01);
+  EXPECT_NEAR(box.zMin(), -1.2, 0.03);
+  EXPECT_EQ(scene_->findLayer("/map")->layer->counts()[1].second, 2U * 79 * 59 - 2 * 49 + 4);
+}
+
+TEST_F(GridMapGolden, IsTheSameInAPlainViewer) {
+  openHill();
+  const auto folder = std::filesystem::path(testing::TempDir()) / "exported_grid_map";
+  std::filesystem::create_directories(folder);
+  for (const char* const flat : {"false", "true"}) {
+    ASSERT_TRUE(scene_->findLayer("/map")->layer->applySettings({{"flat", flat}}));
+    const auto ours = draw(1_s, view_, 320, 240);
+    for (const char* const file : {"scene.osgt", "scene.osgb"}) {
+      const auto written = scenegraph::exportGraph(
+          scene_->root(),
+          {.time = {1_s}, .fixed_frame = "map", .source = "test", .layers = {}, .viewport_height_px = 240},
+          folder / file);
+      ASSERT_TRUE(written) << written.error().message;
+      const osg::ref_ptr<osg::Node> back = osgDB::readRefNodeFile((folder / file).string());
+      ASSERT_TRUE(back.valid());
+      const auto plain = drawPlainly(*back, view_, 0.1, 100.0, 320, 240, {.r = 0, .g = 0, .b = 0, .a = 1});
+      const auto differs = difference(ours, plain);
+      EXPECT_LE(differs.beyond_one, 100U) << file << ", flat " << flat << ": largest " << differs.largest;
+      EXPECT_GT(drawnPixels(plain), 15000);
+    }
+  }
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

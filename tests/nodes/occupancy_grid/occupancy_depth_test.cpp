@@ -4,6 +4,7 @@
 #include <osgDB/ReadFile>
 
 #include "scenegraph/export/osgt_export.h"
+#include "tests/nodes/grid_map_builder.h"
 #include "tests/nodes/occupancy_grid/grid_builder.h"
 #include "tests/nodes/scene_picture.h"
 #include "tests/support/golden.h"
@@ -18,8 +19,8 @@ using scenegraph::ObjectType;
 
 constexpr scenegraph::Color kBlack{.r = 0, .g = 0, .b = 0, .a = 1};
 
-/// Three grids and the reference grid in one plane: a white map, a magenta and a cyan costmap on it in frames of their
-/// own, red lines over all of them.
+/// Three grids, two grid maps lying flat and the reference grid in one plane: a white map, a magenta and a cyan costmap
+/// on it in frames of their own, a yellow and a green grid map on those, red lines over all of them.
 class OccupancyDepth : public ScenePictureTest {
  protected:
   static constexpr int kSize = 128;
@@ -31,9 +32,16 @@ class OccupancyDepth : public ScenePictureTest {
     global.origin = turn(0.6, -8, -9, 0);
     auto local = makeUniformGrid(80, 80, 99, "map", 0.1);
     local.origin = turn(-0.2, -3, -5, 0);
+    const auto nothing = [](auto, auto) { return 0.0; };
+    auto heights = GridMapBuilder(9, 7).layer("v", nothing).origin(turn(0.9, -2, -5, 0)).build();
+    auto slopes = GridMapBuilder(5, 6).layer("v", nothing).frame("base").origin(turn(0.1, -3, 0.5, 0)).build();
     open(DatasetBuilder()
              .topic("/tf", ObjectType::FrameTransforms)
              .transform(0, "map", "base", turn(0.37, 3.25, -2.125, 0))
+             .topic("/heights", ObjectType::GridMap)
+             .at(1_s, heights)
+             .topic("/slopes", ObjectType::GridMap)
+             .at(1_s, slopes)
              .topic("/world", ObjectType::OccupancyGrid)
              .at(1_s, world)
              .topic("/global", ObjectType::OccupancyGrid)
@@ -42,6 +50,9 @@ class OccupancyDepth : public ScenePictureTest {
              .at(1_s, local)
              .build(),
          "map");
+    // Grid maps before the grids in the list, and before them in the picture all the same.
+    add("/heights", {{"flat", "true"}, {"color_field", "flat"}, {"flat_color", "#ffff00"}});
+    add("/slopes", {{"flat", "true"}, {"color_field", "flat"}, {"flat_color", "#00ff00"}});
     add("/world");
     add("/global", {{"color_scheme", "costmap"}});
     add("/local", {{"color_scheme", "costmap"}});
@@ -59,7 +70,7 @@ class OccupancyDepth : public ScenePictureTest {
   /// Pixels of a picture of everything that are not what pictures of each layer alone demand, the upmost first.
   template <typename Draw>
   int flips(Draw draw_graph) {
-    const char* const names[] = {"grid", "/local", "/global", "/world"};
+    const char* const names[] = {"grid", "/slopes", "/heights", "/local", "/global", "/world"};
     const auto showOnly = [&](const char* only) {
       for (const char* const name : names) {
         scene_->findLayer(name)->layer->setVisible(only == nullptr || only == std::string_view(name));
@@ -67,7 +78,7 @@ class OccupancyDepth : public ScenePictureTest {
       scene_->update(tf::TimePoint{1_s});
       return draw_graph();
     };
-    std::array<BytePicture, 4> alone;
+    std::array<BytePicture, std::size(names)> alone;
     std::ranges::transform(names, alone.begin(), showOnly);
     const BytePicture all = showOnly(nullptr);
     int wrong = 0;

@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
+#include <memory>
 
 #include "tests/nodes/occupancy_grid/grid_builder.h"
 #include "tests/nodes/scene_picture.h"
@@ -165,6 +168,38 @@ TEST_F(OccupancyPicture, TurnsWithItsOriginAndTakesAnyResolution) {
     picture = draw(1_s, view);
     EXPECT_NEAR(drawnPixels(picture), 300, 40) << resolution_m;
   }
+}
+
+TEST_F(OccupancyPicture, DrawsTwentyThousandCellsSquare) {
+  constexpr std::uint32_t kSide = 20'000;
+  constexpr std::size_t kCells = std::size_t{kSide} * kSide;
+  // Pages of zeros take no memory until they are written to.
+  const std::shared_ptr<std::byte> zeros(static_cast<std::byte*>(std::calloc(kCells, 1)), std::free);
+  ASSERT_NE(zeros, nullptr);
+  const auto fill = [&](std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height) {
+    for (std::uint32_t row = y; row < y + height; ++row) {
+      std::memset(zeros.get() + std::size_t{row} * kSide + x, 100, width);
+    }
+  };
+  fill(19'000, 19'000, 1000, 1000);  // the last corner
+  fill(5000, 0, 1000, 300);          // over the edge of two tiles
+  fill(0, 12'345, 1, 1);             // smaller than a pixel
+  scenegraph::OccupancyGrid grid;
+  grid.frame_id = "map";
+  grid.resolution_m = 0.001;
+  grid.width = grid.height = kSide;
+  grid.data = {{zeros.get(), kCells}, zeros};
+  openGrid(grid);
+  const auto& layer = add("/map");
+  const auto picture = draw(1_s, fromAbove(10, 10));
+  EXPECT_EQ(layer.status(), scenegraph::Status{});
+  EXPECT_EQ(layer.counts()[0].second, kCells);
+  EXPECT_EQ(layer.counts()[2].second, 1'300'001U);
+  EXPECT_EQ(drawnPixels(picture), 200 * 200 - 10 * 10 - 10 * 3);
+  EXPECT_EQ(pixel(picture, 199, 0), (Bytes3{0, 0, 0}));
+  EXPECT_EQ(pixel(picture, 50, 199), (Bytes3{0, 0, 0}));
+  EXPECT_EQ(pixel(picture, 59, 197), (Bytes3{0, 0, 0}));
+  EXPECT_EQ(pixel(picture, 60, 197), (Bytes3{255, 255, 255}));
 }
 
 TEST_F(OccupancyPicture, SaysWhyAGridIsNotDrawn) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -21,9 +23,12 @@ class Checkpoints {
     std::size_t own_bytes = 0;  ///< beyond the one before, with which it may share
   };
 
-  /// The first is the state before any step.
-  Checkpoints(State start, std::size_t max_bytes, std::size_t work_step)
-      : max_bytes_(max_bytes), work_step_(work_step) {
+  /// Bytes of all but the first, each that several share once.
+  using Recount = std::function<std::size_t(std::span<const Item>)>;
+
+  /// The first is the state before any step. Without `recount`, what is thinned out takes all its own bytes along.
+  Checkpoints(State start, std::size_t max_bytes, std::size_t work_step, Recount recount = {})
+      : max_bytes_(max_bytes), work_step_(work_step), recount_(std::move(recount)) {
     items_.push_back({0, std::move(start), 0});
   }
 
@@ -50,7 +55,7 @@ class Checkpoints {
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return items_.size(); }
-  /// An upper bound: what was thinned out counts as long as what follows may share it.
+  /// Beyond the first.
   [[nodiscard]] std::size_t byteSize() const noexcept { return bytes_; }
 
  private:
@@ -67,13 +72,18 @@ class Checkpoints {
     items_.resize(kept);
     work_step_ *= 2;
     bytes_ = 0;
-    for (const Item& item : items_) {
-      bytes_ += item.own_bytes;
+    if (recount_) {
+      bytes_ = recount_(items_);
+    } else {
+      for (const Item& item : items_) {
+        bytes_ += item.own_bytes;
+      }
     }
   }
 
   std::size_t max_bytes_;
   std::size_t work_step_;
+  Recount recount_;
   std::size_t bytes_ = 0;
   std::vector<Item> items_;  // ascending
 };

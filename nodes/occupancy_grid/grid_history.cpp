@@ -22,6 +22,30 @@ GridHistory::Update detached(const OccupancyGridUpdate& update) {
   return copy;
 }
 
+GridState baseState(const GridHeader& header, std::span<const std::byte> cells) {
+  GridState base;
+  base.cells = GridCells(header, cells);
+  return base;
+}
+
+std::size_t pointerBytes(const GridState& state) {
+  return state.cells.blocks().size() * sizeof(std::shared_ptr<GridBlock>);
+}
+
+/// Of all checkpoints but the base: blocks that several share count once, those of the base not at all.
+std::size_t checkpointBytes(std::span<const Checkpoints<GridState>::Item> items) {
+  std::unordered_set<const GridBlock*> known;
+  std::size_t bytes = 0;
+  for (const auto& item : items) {
+    const bool is_base = item.place == 0;
+    bytes += is_base ? 0 : pointerBytes(item.state);
+    for (const auto& block : item.state.cells.blocks()) {
+      bytes += known.insert(block.get()).second && !is_base ? block->byteSize() : 0;
+    }
+  }
+  return bytes;
+}
+
 std::string patchText(const OccupancyGridUpdate& update) {
   return std::to_string(update.width) + " x " + std::to_string(update.height) + " cells at (" +
          std::to_string(update.x) + ", " + std::to_string(update.y) + ")";
@@ -30,15 +54,14 @@ std::string patchText(const OccupancyGridUpdate& update) {
 }  // namespace
 
 GridHistory::GridHistory(GridHeader header, std::span<const std::byte> cells, std::size_t max_bytes)
-    : header_(std::move(header)), max_bytes_(max_bytes), work_step_(kWorkStep) {
-  Checkpoint base;
-  base.state.cells = GridCells(header_, cells);
-  base_bytes_ = base.state.cells.byteSize();
-  checkpoints_.push_back(std::move(base));
+    : header_(std::move(header)),
+      max_bytes_(max_bytes),
+      checkpoints_(baseState(header_, cells), max_bytes, kWorkStep, checkpointBytes) {
+  base_bytes_ = checkpoints_.before(0).state.cells.byteSize();
 }
 
 std::size_t GridHistory::byteSize() const noexcept {
-  return sizeof(*this) + base_bytes_ + checkpoint_bytes_ + update_bytes_ +
+  return sizeof(*this) + base_bytes_ + checkpoints_.byteSize() + update_bytes_ +
          ids_.capacity() * (sizeof(std::uint64_t) + sizeof(Update));
 }
 
@@ -46,9 +69,7 @@ void GridHistory::forgetAfter(std::size_t place) {
   if (head_ && head_->place > place) {
     head_.reset();
   }
-  while (checkpoints_.back().place > place) {
-    checkpoints_.pop_back();
-  }
+  checkpoints_.forgetAfter(place);
   for (std::size_t i = place; i < updates_.size(); ++i) {
     update_bytes_ -= updates_[i] != nullptr ? updates_[i]->byteSize() : 0;
   }
@@ -100,33 +121,6 @@ void GridHistory::apply(GridState& state, const Update& update) const {
   }
 }
 
-void GridHistory::keep(std::size_t place, const GridState& state, std::size_t own_bytes) {
-  const auto after = std::ranges::upper_bound(checkpoints_, place, {}, &Checkpoint::place);
-  checkpoints_.insert(after, Checkpoint{place, state});
-  checkpoint_bytes_ += own_bytes + state.cells.blocks().size() * sizeof(std::shared_ptr<GridBlock>);
-  while (checkpoint_bytes_ > max_bytes_ && checkpoints_.size() > 1) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < checkpoints_.size(); i += 2) {
-      if (kept != i) {
-        checkpoints_[kept] = std::move(checkpoints_[i]);
-      }
-      ++kept;
-    }
-    checkpoints_.resize(kept);
-    work_step_ *= 2;
-    // Exact: what went may live on in what stays.
-    std::unordered_set<const GridBlock*> known;
-    checkpoint_bytes_ = 0;
-    for (const Checkpoint& checkpoint : checkpoints_) {
-      const bool is_base = checkpoint.place == 0;
-      checkpoint_bytes_ += is_base ? 0 : checkpoint.state.cells.blocks().size() * sizeof(std::shared_ptr<GridBlock>);
-      for (const auto& block : checkpoint.state.cells.blocks()) {
-        checkpoint_bytes_ += known.insert(block.get()).second && !is_base ? block->byteSize() : 0;
-      }
-    }
-  }
-}
-
 GridState GridHistory::at(std::span<const std::uint64_t> ids, const Fetch& fetch) {
   const auto same = static_cast<std::size_t>(std::ranges::mismatch(ids, ids_).in1 - ids.begin());
   if (same < std::min(ids.size(), ids_.size())) {
@@ -136,8 +130,7 @@ GridState GridHistory::at(std::span<const std::uint64_t> ids, const Fetch& fetch
     ids_.assign(ids.begin(), ids.end());
     updates_.resize(ids_.size());
   }
-  const auto after = std::ranges::upper_bound(checkpoints_, ids.size(), {}, &Checkpoint::place);
-  const Checkpoint& start = *std::prev(after);
+  const auto& start = checkpoints_.before(ids.size());
   if (!head_ || head_->place > ids.size() || head_->place < start.place) {
     head_ = Head{start.place, 0, start.state};
   }
@@ -149,8 +142,9 @@ GridState GridHistory::at(std::span<const std::uint64_t> ids, const Fetch& fetch
     const std::size_t copied = head.state.cells.ownBytes() - before;
     head.work += kWorkOfUpdate + 2 * copied + (patch != nullptr ? patch->data.bytes.size() : 0);
     ++head.place;
-    if (head.work >= work_step_) {
-      keep(head.place, head.state, head.state.cells.ownBytes());
+    if (checkpoints_.isDue(head.work)) {
+      const std::size_t own_bytes = pointerBytes(head.state) + head.state.cells.ownBytes();  // before it is copied
+      checkpoints_.keep(head.place, head.state, own_bytes);
       head.work = 0;
     }
   }

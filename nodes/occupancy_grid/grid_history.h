@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "nodes/checkpoints.h"
 #include "nodes/occupancy_grid/grid_cells.h"
 #include "nodes/occupancy_grid/grid_header.h"
 #include "scenegraph/objects/occupancy_grid.h"
@@ -50,10 +51,6 @@ class GridHistory {
   [[nodiscard]] std::size_t byteSize() const noexcept;
 
  private:
-  struct Checkpoint {
-    std::size_t place = 0;  ///< updates that went in
-    GridState state;
-  };
   struct Head {
     std::size_t place = 0;
     std::size_t work = 0;  ///< since the checkpoint before
@@ -62,15 +59,12 @@ class GridHistory {
   void forgetAfter(std::size_t place);
   Update update(std::size_t place, const Fetch& fetch);
   void apply(GridState& state, const Update& update) const;
-  void keep(std::size_t place, const GridState& state, std::size_t own_bytes);
 
   GridHeader header_;
   std::size_t max_bytes_;
   std::size_t base_bytes_ = 0;
-  std::size_t checkpoint_bytes_ = 0;     // beyond the base
-  std::size_t work_step_;                // between checkpoints
-  std::vector<Checkpoint> checkpoints_;  // ascending; the first is the base
-  std::optional<Head> head_;             // where the last call ended
+  Checkpoints<GridState> checkpoints_;  // the first is the base
+  std::optional<Head> head_;            // where the last call ended
   std::vector<std::uint64_t> ids_;
   std::vector<Update> updates_;  // by place; nullptr where not kept
   std::size_t update_bytes_ = 0;

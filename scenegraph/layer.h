@@ -30,6 +30,9 @@ struct LayerContext {
   std::function<void()> request_update;
 };
 
+/// What drivers of today take or more, for scenes that no context draws.
+inline constexpr std::uint64_t kUsualBufferTexels = std::uint64_t{1} << 27U;
+
 /// One moment of a view.
 struct Tick {
   tf::TimePoint time;
@@ -37,6 +40,8 @@ struct Tick {
   /// this order, whatever the distance.
   std::uint32_t order = 0;
   std::uint32_t of_type = 1;
+  /// Texels that the driver takes in one texture buffer.
+  std::uint64_t buffer_texels = kUsualBufferTexels;
 };
 
 /// Numbers a layer reports, by name ("points", "dropped"), in a fixed order.

@@ -215,6 +215,13 @@ bool Scene::update(tf::TimePoint time) {
   return !is_same;
 }
 
+bool Scene::setBufferTexels(std::uint64_t texels) {
+  const bool is_new = texels != buffer_texels_;
+  buffer_texels_ = texels;
+  layers_revision_ += is_new ? 1 : 0;
+  return is_new;
+}
+
 void Scene::updateLayers(tf::TimePoint time) {
   const auto isOf = [](const LayerType* type) {
     return [type](const std::unique_ptr<LayerSlot>& slot) { return slot->type == type; };
@@ -222,7 +229,8 @@ void Scene::updateLayers(tf::TimePoint time) {
   for (auto slot = layers_.begin(); slot != layers_.end(); ++slot) {
     const auto before = std::count_if(layers_.begin(), slot, isOf((*slot)->type));
     const auto all = std::ranges::count_if(layers_, isOf((*slot)->type));
-    (*slot)->layer->update(Tick{time, static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(all)});
+    (*slot)->layer->update(
+        Tick{time, static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(all), buffer_texels_});
   }
 }
 

@@ -49,6 +49,10 @@ class Scene {
   /// can be seen alone; "" when there is none either.
   [[nodiscard]] std::string fixedFrame() const;
 
+  /// What the context that draws the scene takes in one texture buffer (GlContextInfo); the next update() heeds it.
+  /// Returns whether it is another than before.
+  bool setBufferTexels(std::uint64_t texels);
+
   /// Adds a layer for a topic of the store, or a built-in by its type's name; the one that is there when it is. Refuses
   /// what no type consumes.
   std::expected<LayerSlot*, Status> addLayer(std::string_view topic);
@@ -93,6 +97,7 @@ class Scene {
   LayerContext context_;
   std::vector<std::unique_ptr<LayerSlot>> layers_;
   std::uint64_t layers_revision_ = 0;
+  std::uint64_t buffer_texels_ = kUsualBufferTexels;
   std::optional<std::string> chosen_frame_;
   std::optional<std::string> preferred_frame_;
   mutable std::string automatic_frame_;

@@ -10,7 +10,7 @@
 
 namespace stillframe::nodes {
 
-/// Voxels in all: as many words as a texture buffer has room for on the drivers that matter (2^27 texels).
+/// Voxels in all, so that memory stays bounded. What the driver has room for is asked of it (Tick::buffer_texels).
 inline constexpr std::uint64_t kMaxVoxels = std::uint64_t{1} << 27;
 
 /// The voxels of a grid whose sizes fit its data, x fastest, then y, then z.

@@ -91,10 +91,19 @@ void VoxelGridLayer::show() {
   choice_.reset();
   reapply();
   listed_ = 0;
+  needed_texels_ = 0;
   geometry_->removePrimitiveSet(0, geometry_->getNumPrimitiveSets());
   geometry_->setVertexArray(nullptr);
   geometry_->dirtyBound();
   state_.clearBuffers();
+}
+
+std::optional<TopicLayer::Anchor> VoxelGridLayer::load(const scenegraph::Tick& tick) {
+  if (buffer_texels_ != tick.buffer_texels) {
+    buffer_texels_ = tick.buffer_texels;
+    choice_.reset();
+  }
+  return SampleLayer::load(tick);
 }
 
 void VoxelGridLayer::build(const Choice& choice) {
@@ -108,14 +117,16 @@ void VoxelGridLayer::build(const Choice& choice) {
   }
   const bool is_rgb = choice.mode == VoxelColorMode::Rgb;
   const VoxelList& list = block.list(choice.drawn_by, is_rgb);
-  listed_ = list.voxels;
+  const VoxelBuffers buffers{.drawn_by = block.field(choice.drawn_by),
+                             .colored_by = block.field(choice.color),
+                             .colors = is_rgb ? block.colors() : nullptr,
+                             .list = &list};
+  needed_texels_ = buffers.largest();
+  listed_ = needed_texels_ <= buffer_texels_ ? list.voxels : 0;
   if (listed_ == 0) {
     return;
   }
-  state_.setBuffers(block, {.drawn_by = block.field(choice.drawn_by),
-                            .colored_by = block.field(choice.color),
-                            .colors = is_rgb ? block.colors() : nullptr,
-                            .list = &list});
+  state_.setBuffers(block, buffers);
   // The vertices only hold the bound: the shader goes by their number.
   const osg::BoundingBox bound(box());
   osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
@@ -188,6 +199,11 @@ Status VoxelGridLayer::remark() const {
   if (product()->voxels() == 0) {
     return {StatusLevel::Info, "EmptyGrid", loadedText() + "the grid has no voxels"};
   }
+  if (needed_texels_ > buffer_texels_) {
+    return {StatusLevel::Error, "BufferTooLarge",
+            loadedText() + "its " + std::to_string(product()->voxels()) + " voxels need a buffer of " +
+                std::to_string(needed_texels_) + " texels; this OpenGL driver takes " + std::to_string(buffer_texels_)};
+  }
   if (product()->drawn(choice_->drawn_by, test_, choice_->mode == VoxelColorMode::Rgb) == 0) {
     return {StatusLevel::Info, "NothingDrawn",
             loadedText() + "none of its " + std::to_string(product()->voxels()) +
@@ -201,7 +217,7 @@ scenegraph::LayerCounts VoxelGridLayer::counts() const {
     return {{"voxels", 0}, {"drawn", 0}, {"listed", 0}, {"bytes", 0}};
   }
   return {{"voxels", product()->voxels()},
-          {"drawn", product()->drawn(choice_->drawn_by, test_, choice_->mode == VoxelColorMode::Rgb)},
+          {"drawn", listed_ > 0 ? product()->drawn(choice_->drawn_by, test_, choice_->mode == VoxelColorMode::Rgb) : 0},
           {"listed", listed_},
           {"bytes", product()->source().data.bytes.size()}};
 }

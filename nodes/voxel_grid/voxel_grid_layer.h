@@ -49,6 +49,7 @@ class VoxelGridLayer final : public SampleLayer<VoxelBlock, VoxelGridSettings> {
   void open(const scenegraph::LayerContext& context) override;
   void close() override;
   void show() override;
+  [[nodiscard]] std::optional<Anchor> load(const scenegraph::Tick& tick) override;
   [[nodiscard]] Anchor anchorOf(const VoxelBlock& block) const override;
   void draw(const Placement& fixed_from_grid) override;
   [[nodiscard]] osg::BoundingBoxd box() const override;
@@ -60,6 +61,8 @@ class VoxelGridLayer final : public SampleLayer<VoxelBlock, VoxelGridSettings> {
   std::optional<Choice> choice_;
   VoxelTest test_;
   std::size_t listed_ = 0;
+  std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
+  std::uint64_t needed_texels_ = 0;  // of the largest buffer
   osg::ref_ptr<osg::Geometry> geometry_;
   VoxelState state_;
 };

@@ -1,5 +1,6 @@
 #include "nodes/voxel_grid/voxel_state.h"
 
+#include <algorithm>
 #include <array>
 
 #include "generated/stillframe_nodes/shaders.h"
@@ -23,6 +24,18 @@ void setForm(osg::Uniform& uniform, const VoxelField* field) {
 }
 
 }  // namespace
+
+std::size_t VoxelBuffers::largest() const {
+  std::size_t most = 0;
+  for (const VoxelWords* const buffer :
+       {drawn_by != nullptr ? &drawn_by->values : nullptr, colored_by != nullptr ? &colored_by->values : nullptr,
+        colors != nullptr ? &colors->values : nullptr, list != nullptr ? &list->values : nullptr}) {
+    if (buffer != nullptr && buffer->words.valid()) {
+      most = std::max(most, static_cast<std::size_t>(buffer->words->size()));
+    }
+  }
+  return most;
+}
 
 VoxelState::VoxelState()
     : state_(new osg::StateSet),

@@ -22,6 +22,9 @@ struct VoxelBuffers {
   const VoxelField* colored_by = nullptr;  ///< with VoxelColorMode::Value
   const VoxelColors* colors = nullptr;     ///< with VoxelColorMode::Rgb
   const VoxelList* list = nullptr;
+
+  /// Texels of the largest of them.
+  [[nodiscard]] std::size_t largest() const;
 };
 
 /// Program, buffers and uniforms of one layer of voxel grids. GUI thread.

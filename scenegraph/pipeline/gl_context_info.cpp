@@ -4,6 +4,7 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include <algorithm>
 #include <string_view>
 
 namespace stillframe::scenegraph {
@@ -51,6 +52,9 @@ std::expected<GlContextInfo, Status> inspectCurrentContext() {
   GLint max_size = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
   info.max_texture_size = max_size;
+  GLint max_texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max_texels);
+  info.max_buffer_texels = static_cast<std::uint64_t>(std::max(max_texels, 0));
   info.is_software = namesSoftwareRasteriser(info.renderer);
   return info;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <expected>
 #include <string>
 
@@ -13,7 +14,8 @@ struct GlContextInfo {
   std::string renderer;
   std::string version;
   int max_texture_size = 0;
-  bool is_software = false;  ///< a CPU rasteriser: slow, but bit-identical from run to run
+  std::uint64_t max_buffer_texels = 0;  ///< of a texture buffer
+  bool is_software = false;             ///< a CPU rasteriser: slow, but bit-identical from run to run
 };
 
 /// Checks the context that is current on this thread: OpenGL 4.5, compatibility profile.

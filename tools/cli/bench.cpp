@@ -82,6 +82,7 @@ Result<void> benchRecording(const std::string& file, std::vector<BenchResult>& r
       return;
     }
     renderer = std::move(*created);
+    session->setContext(renderer->context().info());
     done = draw();
   });
   if (!done) {

@@ -96,6 +96,7 @@ Result<void> runRender(const RenderCommandOptions& options) {
   if (!renderer) {
     return std::unexpected(fileError(options.out, renderer.error()));
   }
+  session.setContext((*renderer)->context().info());
   session.scene().setView(session.camera(),
                           {static_cast<double>(view->size.width_px), static_cast<double>(view->size.height_px)});
   // An .exr is scene-linear, before the tone curve.

@@ -101,6 +101,12 @@ void SceneSession::showTime(tf::TimePoint time) {
   follow_.track(followedPose(), rig_);
 }
 
+void SceneSession::setContext(const scenegraph::GlContextInfo& info) {
+  if (scene_->setBufferTexels(info.max_buffer_texels)) {
+    updateFully();
+  }
+}
+
 void SceneSession::updateFully() {
   // Each round may start work that the next one shows; a layer that never settles must not hang the program.
   constexpr int kMostRounds = 8;

@@ -6,6 +6,7 @@
 #include "scenegraph/camera/follow.h"
 #include "scenegraph/executor.h"
 #include "scenegraph/export/osgt_export.h"
+#include "scenegraph/pipeline/gl_context_info.h"
 #include "scenegraph/scene.h"
 #include "tools/cli/view_options.h"
 #include "tools/ingest/recording.h"
@@ -22,6 +23,8 @@ class SceneSession {
   [[nodiscard]] tf::TimePoint time() const noexcept { return time_; }
   /// Goes to another instant, which need not lie within the recording.
   void showTime(tf::TimePoint time);
+  /// Heeds what the context that will draw the scene can do.
+  void setContext(const scenegraph::GlContextInfo& info);
   /// From the eye that was asked for, else one that sees all of it from above at an angle. It was placed at the first
   /// instant, and has gone along with the followed frame since.
   [[nodiscard]] scenegraph::CameraView camera() const;

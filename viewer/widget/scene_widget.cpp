@@ -57,6 +57,7 @@ void SceneWidget::setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scene
   scene_.reset();
   if (dataset != nullptr) {
     scene_ = std::make_unique<scenegraph::Scene>(std::move(dataset), nodes::layerTypes(), executor, gate_.requester());
+    scene_->setBufferTexels(buffer_texels_);
   }
   is_camera_touched_ = false;
   wants_framing_ = true;
@@ -127,6 +128,10 @@ void SceneWidget::initializeGL() {
     qCWarning(glLog).noquote() << QString::fromStdString(info.error().message);
     showProblem(tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(info.error().message)));
     return;
+  }
+  buffer_texels_ = info->max_buffer_texels;
+  if (scene_ != nullptr && scene_->setBufferTexels(buffer_texels_)) {
+    requestTick();
   }
   showProblem({});
   debug_log_.install();

@@ -176,6 +176,7 @@ class SceneWidget : public QOpenGLWidget {
   bool has_framed_data_ = false;
   bool is_camera_touched_ = false;
   bool is_context_usable_ = false;
+  std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
   std::uint64_t frames_drawn_ = 0;
   QMetaObject::Connection context_watch_;
   QLabel* message_ = nullptr;

@@ -303,6 +303,23 @@ TEST_F(VoxelPicture, SaysWhatIsWrong) {
   EXPECT_EQ(empty.status().code, "EmptyGrid");
 }
 
+TEST_F(VoxelPicture, KeepsToWhatTheDriverTakesInABuffer) {
+  EXPECT_GE(renderer_->context().info().max_buffer_texels, 65536U) << "what OpenGL 4.5 promises";
+  open(datasetOf(VoxelBuilder(8, 8, 8).field("cost", FieldType::Float32, clumps).build()), "map");
+  const auto& layer = add("/voxels");
+  scene_->setBufferTexels(511);
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+  EXPECT_EQ(layer.status().code, "BufferTooLarge");
+  EXPECT_THAT(layer.status().message,
+              HasSubstr("its 512 voxels need a buffer of 512 texels; this OpenGL driver takes 511"));
+  EXPECT_EQ(layer.counts()[1].second, 0U);
+  EXPECT_FALSE(layer.boundsInFixed().valid());
+  scene_->setBufferTexels(512);
+  EXPECT_GT(drawnPixels(draw(1_s, fromAbove())), 1000);
+  EXPECT_EQ(layer.status(), scenegraph::Status{});
+  EXPECT_GT(layer.counts()[1].second, 0U);
+}
+
 TEST_F(VoxelPicture, FillsWithoutGapsFarFromTheCornerOfALargeGrid) {
   const VoxelGrid grid = VoxelBuilder(4000, 8, 1)
                              .cell({0.1, 0.1, 0.1})

@@ -36,10 +36,13 @@ constexpr std::uint32_t kColumns = 124;
 constexpr std::uint32_t kRows = 84;
 constexpr std::uint32_t kSlices = 14;
 constexpr double kCell_m = 0.25;
+constexpr double kScale = 0.25;
+constexpr double kBesideWall_m = 12.0;  // where it begins along y
 constexpr std::uint32_t kCellBytes = 2;
 
-/// What stands in the warehouse below 3.5 m as voxels, once: 100 where something is, the cells about it less the
-/// farther they are, 0 in the open. Beside it the material's reflectivity in percent.
+/// A model of the warehouse at a scale of one to four, before its wall, where it hides nothing of what is seen within:
+/// what stands there below 3.5 m as voxels, once. 100 where something is, the cells about it less the farther they are,
+/// 0 in the open. Beside it the material's reflectivity in percent.
 class Voxels final : public Topic {
  public:
   explicit Voxels(const Stage& stage) : stage_(stage) {}
@@ -50,12 +53,13 @@ class Voxels final : public Topic {
   std::vector<std::byte> message(std::int64_t elapsed_ns) const override {
     ingest::CdrWriter cdr;
     cdr.stamp(stage_.start_ns + elapsed_ns).string("map");
-    for (const double value : {-0.5 * kColumns * kCell_m, -0.5 * kRows * kCell_m, 0.0, 0.0, 0.0, 0.0, 1.0}) {
+    constexpr double kVoxel_m = kScale * kCell_m;
+    for (const double value : {-0.5 * kColumns * kVoxel_m, kBesideWall_m, 0.0, 0.0, 0.0, 0.0, 1.0}) {
       cdr.number(value);
     }
     cdr.number(kRows).number(kColumns);
     for (int axis = 0; axis < 3; ++axis) {
-      cdr.number(kCell_m);
+      cdr.number(kVoxel_m);
     }
     cdr.number(kCellBytes * kColumns * kRows).number(kCellBytes * kColumns).number(kCellBytes);
     constexpr std::uint8_t kFoxgloveUint8 = 1;

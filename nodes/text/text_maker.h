@@ -1,11 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <osg/Node>
-#include <osg/StateSet>
 #include <osg/ref_ptr>
-#include <osgText/Font>
 #include <string_view>
 
+#include "nodes/text/text_parts.h"
 #include "scenegraph/settings.h"
 
 namespace stillframe::nodes {
@@ -20,9 +20,7 @@ struct TextStyle {
 };
 
 /// Makes texts: UTF-8, any number of lines, sharp up to the height of its glyphs in their texture.
-///
-/// The font is looked for with the first text: DejaVu or Liberation where Debian installs them, else the one built into
-/// OSG. GUI thread.
+/// GUI thread.
 class TextMaker {
  public:
   /// Height of the glyphs of texts in metres, which may come near; OSG's own, 32, for texts in pixels.
@@ -34,9 +32,7 @@ class TextMaker {
   [[nodiscard]] osg::ref_ptr<osg::Node> make(std::string_view utf8, const TextStyle& style);
 
  private:
-  bool has_looked_ = false;
-  osg::ref_ptr<osgText::Font> font_;
-  osg::ref_ptr<osg::StateSet> state_;
+  TextParts parts_{TextParts::Place::InScene};
 };
 
 }  // namespace stillframe::nodes

@@ -1,0 +1,72 @@
+#include "nodes/text/text_parts.h"
+
+#include <filesystem>
+#include <osg/BlendFunc>
+#include <osg/Group>
+
+#include "generated/stillframe_nodes/shaders.h"
+#include "scenegraph/geometry.h"
+
+namespace stillframe::nodes {
+namespace {
+
+osg::ref_ptr<osgText::Font> findFont() {
+  for (const char* path : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                           "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+                           "/usr/share/fonts/truetype/liberation2/LiberationSans-Regular.ttf"}) {
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored)) {
+      if (osg::ref_ptr<osgText::Font> font = osgText::readRefFontFile(path)) {
+        return font;
+      }
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void TextParts::look() {
+  if (state_ != nullptr) {
+    return;
+  }
+  font_ = findFont();
+  // Text has a state of its own for each font, which knows nothing of a scene-linear target.
+  namespace shaders = shaders::stillframe_nodes;
+  state_ = new osg::StateSet;
+  state_->setAttributeAndModes(scenegraph::makeProgram("label", shaders::k_label_vert, shaders::k_label_frag),
+                               osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+  // Its own blending would leave holes in the target's alpha, which says what is data.
+  state_->setAttribute(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA),
+                       osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+  state_->addUniform(new osg::Uniform("u_glyphs", 0));
+  if (place_ == Place::OverAll) {
+    state_->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+    state_->setRenderBinDetails(100, "DepthSortedBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
+  }
+}
+
+osg::ref_ptr<osgText::Text> TextParts::makeText() {
+  look();
+  osg::ref_ptr<osgText::Text> text = new osgText::Text;
+  text->setName("label");
+  text->setUseDisplayList(false);
+  text->setUseVertexBufferObjects(true);
+  text->setUseVertexArrayObject(false);
+  if (font_.valid()) {
+    text->setFont(font_);
+  }
+  // Its true size depends on the camera: a bound from the text would cull it wrongly.
+  text->setCullingActive(false);
+  return text;
+}
+
+osg::ref_ptr<osg::Node> TextParts::makeLabel(const osg::ref_ptr<osgText::Text>& text) {
+  look();
+  osg::ref_ptr<osg::Group> label = new osg::Group;
+  label->setStateSet(state_);
+  label->addChild(text);
+  return label;
+}
+
+}  // namespace stillframe::nodes

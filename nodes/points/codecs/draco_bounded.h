@@ -6,8 +6,8 @@
 #include <draco/compression/point_cloud/point_cloud_kd_tree_decoder.h>
 #include <draco/compression/point_cloud/point_cloud_sequential_decoder.h>
 
-#include <concepts>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace stillframe::nodes {
@@ -53,11 +53,8 @@ void boundPredictions(draco::MeshDecoder& decoder, DracoBudget& budget);
 
 /// A point cloud decoder of libdraco that keeps to a budget.
 template <typename Base>
-class BoundedCloudDecoder final : public Base {
+class BoundedCloudDecoder : public Base {
  public:
-  explicit BoundedCloudDecoder(DracoBudget& budget)
-    requires std::constructible_from<Base, DracoBudget&>
-      : Base(budget), budget_(budget) {}
   explicit BoundedCloudDecoder(DracoBudget& budget) : budget_(budget) {}
 
  protected:
@@ -67,6 +64,7 @@ class BoundedCloudDecoder final : public Base {
   bool DecodeAllAttributes() override {
     return budget_.allowsValues(*this->point_cloud()) && Base::DecodeAllAttributes();
   }
+  [[nodiscard]] DracoBudget& budget() const noexcept { return budget_; }
 
  private:
   DracoBudget& budget_;
@@ -106,20 +104,17 @@ class BoundedKdTreeAttributes final : public draco::KdTreeAttributesDecoder {
   DracoBudget& budget_;
 };
 
-/// The k-d tree decoder of libdraco with such attributes.
-class KdTreeCloudDecoder : public draco::PointCloudKdTreeDecoder {
+/// A k-d tree decoder of libdraco that keeps to a budget in its attributes too.
+class BoundedKdTreeCloud final : public BoundedCloudDecoder<draco::PointCloudKdTreeDecoder> {
  public:
-  explicit KdTreeCloudDecoder(DracoBudget& budget) : budget_of_tree_(budget) {}
+  using BoundedCloudDecoder::BoundedCloudDecoder;
 
  protected:
   bool CreateAttributesDecoder(std::int32_t id) override {
-    return SetAttributesDecoder(id, std::make_unique<BoundedKdTreeAttributes>(budget_of_tree_));
+    return SetAttributesDecoder(id, std::make_unique<BoundedKdTreeAttributes>(budget()));
   }
-
- private:
-  DracoBudget& budget_of_tree_;
 };
-using BoundedKdTreeCloud = BoundedCloudDecoder<KdTreeCloudDecoder>;
+
 using BoundedSequentialMesh = BoundedMeshDecoder<draco::MeshSequentialDecoder, &peekSequentialMesh>;
 using BoundedEdgebreakerMesh = BoundedMeshDecoder<draco::MeshEdgebreakerDecoder, &peekEdgebreakerMesh>;
 

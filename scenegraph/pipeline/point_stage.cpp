@@ -6,6 +6,7 @@
 
 #include "generated/stillframe_render/shaders.h"
 #include "scenegraph/geometry.h"
+#include "scenegraph/pipeline/full_screen.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -32,18 +33,11 @@ osg::ref_ptr<osg::Texture2D> makeTexture(const osg::ref_ptr<osg::Image>& image, 
 PointStage::PointStage(unsigned threads)
     : raster_(threads),
       points_per_ms_(kFirstGuess),
-      triangle_(makeGeometry()),
+      triangle_(makeFullScreenTriangle(new osg::StateSet)),
       color_(new osg::Image),
       depth_(new osg::Image) {
-  osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-  vertices->push_back({-1.0F, -1.0F, 0.0F});
-  vertices->push_back({3.0F, -1.0F, 0.0F});
-  vertices->push_back({-1.0F, 3.0F, 0.0F});
-  triangle_->setVertexArray(vertices);
-  triangle_->addPrimitiveSet(new osg::DrawArrays{GL_TRIANGLES, 0, 3});
-  triangle_->setCullingActive(false);
   triangle_->setNodeMask(0);
-  osg::StateSet& state = *triangle_->getOrCreateStateSet();
+  osg::StateSet& state = *triangle_->getStateSet();
   state.setAttributeAndModes(makeProgram("points", glsl::k_full_screen_vert, glsl::k_points_frag));
   state.setTextureAttribute(0, makeTexture(color_, GL_RGBA16F_ARB));
   state.setTextureAttribute(1, makeTexture(depth_, GL_R32F));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/gtc/type_ptr.hpp>
 #include <osg/BlendFunc>
 #include <osg/ClipControl>
 #include <osg/Depth>
@@ -13,17 +12,16 @@
 
 #include "generated/stillframe_render/shaders.h"
 #include "scenegraph/geometry.h"
+#include "scenegraph/osg_matrix.h"
+#include "scenegraph/pipeline/full_screen.h"
 #include "scenegraph/pipeline/gl_target.h"
 #include "scenegraph/pipeline/sub_pixel.h"
+#include "scenegraph/srgb.h"
 
 namespace stillframe::scenegraph {
 namespace {
 
 namespace glsl = shaders::stillframe_render;
-
-osg::Matrixd toOsg(const glm::dmat4& matrix) { return osg::Matrixd(glm::value_ptr(matrix)); }
-
-float linearFromSrgb(float srgb) { return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F); }
 
 GLint internalFormat(TargetFormat format) {
   switch (format) {
@@ -67,19 +65,6 @@ osg::ref_ptr<osg::Camera> makeTargetCamera(int order, int width_px, int height_p
   camera->setCullingMode(osg::CullSettings::NO_CULLING);
   camera->setAllowEventFocus(false);
   return camera;
-}
-
-osg::ref_ptr<osg::Geometry> makeFullScreenTriangle(const osg::ref_ptr<osg::StateSet>& state) {
-  osg::ref_ptr<osg::Geometry> triangle = makeGeometry();
-  osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-  vertices->push_back({-1.0F, -1.0F, 0.0F});
-  vertices->push_back({3.0F, -1.0F, 0.0F});
-  vertices->push_back({-1.0F, 3.0F, 0.0F});
-  triangle->setVertexArray(vertices);
-  triangle->addPrimitiveSet(new osg::DrawArrays{GL_TRIANGLES, 0, 3});
-  triangle->setCullingActive(false);
-  triangle->setStateSet(state);
-  return triangle;
 }
 
 Status unknownInput(const PostPass& pass, const std::string& input) {

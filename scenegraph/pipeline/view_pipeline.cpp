@@ -1,6 +1,5 @@
 #include "scenegraph/pipeline/view_pipeline.h"
 
-#include <glm/gtc/type_ptr.hpp>
 #include <limits>
 #include <optional>
 #include <osg/Camera>
@@ -12,6 +11,7 @@
 
 #include "scenegraph/buffer_patches.h"
 #include "scenegraph/geometry.h"
+#include "scenegraph/osg_matrix.h"
 #include "scenegraph/pipeline/gl_context_info.h"
 #include "scenegraph/pipeline/gl_target.h"
 #include "scenegraph/pipeline/point_collection.h"
@@ -19,8 +19,6 @@
 
 namespace stillframe::scenegraph {
 namespace {
-
-osg::Matrixd toOsg(const glm::dmat4& matrix) { return osg::Matrixd(glm::value_ptr(matrix)); }
 
 /// OpenGL in software takes some 300 ns a point; the CPU, before it draws any, some 10 ns a pixel.
 constexpr double kPointsAPixelThatPay = 1.0 / 30.0;

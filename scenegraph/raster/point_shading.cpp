@@ -5,19 +5,13 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "scenegraph/srgb.h"
+
 namespace stillframe::scenegraph {
 namespace {
 
 constexpr std::size_t kStepsAnInterval = 64;
 constexpr float kLargestMissing = -2.9e38F;
-
-float linearFromSrgb(float srgb) {
-  return srgb <= 0.04045F ? srgb / 12.92F : std::pow((std::max(srgb, 0.0F) + 0.055F) / 1.055F, 2.4F);
-}
-
-glm::vec3 linearFromSrgb(const glm::vec3& srgb) {
-  return {linearFromSrgb(srgb.r), linearFromSrgb(srgb.g), linearFromSrgb(srgb.b)};
-}
 
 const std::array<float, 256>& linearOfBytes() {
   static const std::array<float, 256> kTable = [] {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <osg/Geometry>
 
-#include "nodes/points/colormap.h"
+#include "tests/nodes/picture_colors.h"
 #include "tests/nodes/scene_picture.h"
 
 namespace stillframe::test {
@@ -15,19 +15,6 @@ using scenegraph::FieldType;
 using scenegraph::ObjectType;
 using scenegraph::PointCloud;
 using testing::HasSubstr;
-
-Bytes3 colorAt(const char* colormap, double t) {
-  const nodes::Rgb color = nodes::findColormap(colormap)->at(t);
-  return {static_cast<int>(std::lround(color[0] * 255.0F)), static_cast<int>(std::lround(color[1] * 255.0F)),
-          static_cast<int>(std::lround(color[2] * 255.0F))};
-}
-
-void expectNear(const Bytes3& actual, const Bytes3& expected, int tolerance = 3) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(actual[i], expected[i], tolerance)
-        << testing::PrintToString(actual) << " instead of " << testing::PrintToString(expected);
-  }
-}
 
 /// Points at x = -8, 0, 8 with z and intensity as given.
 PointCloud threePoints(std::array<double, 3> z, std::array<double, 3> intensity) {

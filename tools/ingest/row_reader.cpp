@@ -14,9 +14,11 @@ namespace {
 
 using Made = std::expected<std::unique_ptr<RowReader>, std::string>;
 
-class RosReader final : public RowReader {
+/// Of a plan whose texts and bytes are views into the message itself.
+template <typename Plan>
+class ViewReader final : public RowReader {
  public:
-  explicit RosReader(WirePlan plan) : plan_(std::move(plan)) {}
+  explicit ViewReader(Plan plan) : plan_(std::move(plan)) {}
   [[nodiscard]] std::expected<Read, scenegraph::DecodeError> read(const MessageView& message,
                                                                   void* row) const override {
     if (auto decoded = plan_.decode(message.data, row); !decoded) {
@@ -26,22 +28,7 @@ class RosReader final : public RowReader {
   }
 
  private:
-  WirePlan plan_;
-};
-
-class ProtoRowReader final : public RowReader {
- public:
-  explicit ProtoRowReader(ProtoPlan plan) : plan_(std::move(plan)) {}
-  [[nodiscard]] std::expected<Read, scenegraph::DecodeError> read(const MessageView& message,
-                                                                  void* row) const override {
-    if (auto decoded = plan_.decode(message.data, row); !decoded) {
-      return std::unexpected(std::move(decoded).error());
-    }
-    return Read{message, nullptr};
-  }
-
- private:
-  ProtoPlan plan_;
+  Plan plan_;
 };
 
 class JsonReader final : public RowReader {
@@ -70,7 +57,7 @@ Made makeRosReader(const SchemaRecord& schema, bool is_ros1, const Shape& shape)
   if (!plan) {
     return std::unexpected(sentence("definition does not fit: ", plan.error()));
   }
-  return std::make_unique<RosReader>(*std::move(plan));
+  return std::make_unique<ViewReader<WirePlan>>(*std::move(plan));
 }
 
 }  // namespace
@@ -94,7 +81,7 @@ std::expected<std::unique_ptr<RowReader>, std::string> makeRowReader(const Schem
     if (!plan) {
       return std::unexpected(sentence("definition does not fit: ", plan.error()));
     }
-    return std::make_unique<ProtoRowReader>(*std::move(plan));
+    return std::make_unique<ViewReader<ProtoPlan>>(*std::move(plan));
   }
   if (message_encoding == "json") {
     return schema.encoding == "jsonschema" || schema.encoding.empty()

@@ -76,8 +76,8 @@ void TopicLayer::update(const scenegraph::Tick& tick) {
   status_ = judge(anchor.has_value(), placement);
 }
 
-osg::BoundingBoxd TopicLayer::bulkInFixed() const {
-  return bounds_.valid() ? boxInFixed(fixed_from_data_, bulk()) : osg::BoundingBoxd();
+std::vector<scenegraph::Box> TopicLayer::bulkInFixed() const {
+  return {bounds_.valid() ? scenegraph::toBox(boxInFixed(fixed_from_data_, bulk())) : scenegraph::Box()};
 }
 
 void TopicLayer::hold(const std::optional<std::string>& frame) {

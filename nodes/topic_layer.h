@@ -30,7 +30,7 @@ class TopicLayer : public scenegraph::Layer {
   [[nodiscard]] std::string sourceFrame() const final { return held_frame_.value_or(""); }
   [[nodiscard]] bool isPending() const final { return visible_ && context_ && isWorking(); }
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const final { return bounds_; }
-  [[nodiscard]] osg::BoundingBoxd bulkInFixed() const final;
+  [[nodiscard]] std::vector<scenegraph::Box> bulkInFixed() const final;
 
  protected:
   /// fixed_from_data at the tick.

@@ -12,9 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "scenegraph/camera/box.h"
 #include "scenegraph/camera/picking.h"
 #include "scenegraph/executor.h"
 #include "scenegraph/frame_graph.h"
+#include "scenegraph/osg_box.h"
 #include "scenegraph/settings.h"
 #include "scenegraph/status.h"
 #include "scenegraph/store/dataset.h"
@@ -78,8 +80,9 @@ class Layer {
   [[nodiscard]] virtual bool isPending() const = 0;
   /// Box of what is drawn, in the fixed frame, double; invalid when nothing is, or when it is mere reference (a grid).
   [[nodiscard]] virtual osg::BoundingBoxd boundsInFixed() const = 0;
-  /// The same without stray points far off: what a first view should hold. May take milliseconds.
-  [[nodiscard]] virtual osg::BoundingBoxd bulkInFixed() const { return boundsInFixed(); }
+  /// The same without stray points far off, in the pieces that may be strays themselves beside those of other layers:
+  /// what a first view should hold is chosen among them. May take milliseconds.
+  [[nodiscard]] virtual std::vector<Box> bulkInFixed() const { return {toBox(boundsInFixed())}; }
 
   /// Settings and what they may be now (a colour field's choices come from the data).
   [[nodiscard]] virtual std::vector<SettingSpec> settingSpecs() const = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "scenegraph/near_names.h"
 
@@ -269,14 +270,14 @@ osg::BoundingBoxd Scene::boundsInFixed() const {
   return all;
 }
 
-osg::BoundingBoxd Scene::bulkInFixed() const {
-  osg::BoundingBoxd all;
+Box Scene::bulkInFixed() const {
+  std::vector<Box> boxes;
   for (const auto& slot : layers_) {
     if (slot->layer->isVisible()) {
-      all.expandBy(slot->layer->bulkInFixed());
+      std::ranges::copy(slot->layer->bulkInFixed(), std::back_inserter(boxes));
     }
   }
-  return all;
+  return bulkOf(boxes);
 }
 
 }  // namespace stillframe::scenegraph

@@ -71,8 +71,8 @@ class Scene {
   void setView(const CameraView& view, const PictureSize& size);
   /// Box of all visible layers in the fixed frame; the axes count, the reference grid does not.
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const;
-  /// The same without stray points far off: what a first view should hold.
-  [[nodiscard]] osg::BoundingBoxd bulkInFixed() const;
+  /// The same without strays far off, of points or of whole layers and frames: what a first view should hold.
+  [[nodiscard]] Box bulkInFixed() const;
 
  private:
   /// All that the picture depends on beside the layers' settings.

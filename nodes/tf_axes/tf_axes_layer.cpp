@@ -349,6 +349,17 @@ void TfAxesLayer::judge() {
   }
 }
 
+std::vector<scenegraph::Box> TfAxesLayer::bulkInFixed() const {
+  std::vector<scenegraph::Box> boxes;
+  for (const Shown& shown : shown_) {
+    if (const auto fixed_from_frame = context_->frames.fixedFromFrame(shown.name)) {
+      const glm::dvec3& at = fixed_from_frame->translation;
+      boxes.push_back({at - settings_.axis_length_m, at + settings_.axis_length_m});
+    }
+  }
+  return boxes;
+}
+
 std::string TfAxesLayer::leftOutText() const {
   return "the first " + std::to_string(shown_.size()) + " of " + std::to_string(shown_.size() + left_out_) +
          " frames are drawn: set frame_filter to see others, or raise max_frames";

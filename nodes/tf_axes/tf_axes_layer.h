@@ -60,6 +60,8 @@ class TfAxesLayer final : public scenegraph::Layer {
   [[nodiscard]] std::string sourceFrame() const override { return ""; }
   [[nodiscard]] bool isPending() const override { return false; }
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const override { return bounds_; }
+  /// Each frame by itself: the origin of a map projection may lie far from everything.
+  [[nodiscard]] std::vector<scenegraph::Box> bulkInFixed() const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
   /// Refuses a frame_filter that is no regular expression.

@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 #include <limits>
+#include <span>
 
 #include "tf/rigid_transform.h"
 
@@ -25,5 +26,10 @@ struct Box {
 [[nodiscard]] Box transformBox(const tf::RigidTransform& target_from_source, const Box& box_in_source) noexcept;
 /// `box`, widened to reach at least `radius_m` from its middle on every axis.
 [[nodiscard]] Box atLeast(const Box& box, double radius_m) noexcept;
+
+/// The box round those of `boxes` that lie together. Left out is what lies 100 times farther from the median of their
+/// centres than all that lies nearer reaches, unless that is half of them or more: the origin of a map projection 500
+/// km from its robot, a map beside the Earth's centre. Invalid boxes count for nothing. n log n.
+[[nodiscard]] Box bulkOf(std::span<const Box> boxes);
 
 }  // namespace stillframe::scenegraph

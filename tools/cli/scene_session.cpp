@@ -149,9 +149,7 @@ Result<void> SceneSession::placeCamera() {
   if (options_.camera == scenegraph::CameraKind::TopDownOrtho) {
     rig_.reset();
   }
-  rig_.change().frame(
-      scenegraph::transformBox(tf::inverse(follow_.fixedFromCamera()), scenegraph::toBox(scene_->bulkInFixed())),
-      aspect);
+  rig_.change().frame(scenegraph::transformBox(tf::inverse(follow_.fixedFromCamera()), scene_->bulkInFixed()), aspect);
   sight = rig_.model().sight();
   if (options_.eye) {
     rig_.look(scenegraph::lookingFrom(*options_.eye, options_.look_at.value_or(sight.focal_point), sight));

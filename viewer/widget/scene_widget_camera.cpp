@@ -161,15 +161,15 @@ void SceneWidget::frameIfWanted() {
   if (!wants_framing_ || scene_->isPending()) {
     return;
   }
-  const osg::BoundingBoxd box = scene_->bulkInFixed();
-  if (!box.valid()) {
+  const scenegraph::Box box = scene_->bulkInFixed();
+  if (!box.isValid()) {
     return;
   }
   wants_framing_ = false;
   has_framed_data_ = hasDataInSight(*scene_);
   camera_.beginMove(now(), has_smooth_moves_ && std::exchange(glides_home_, false));
   camera_.reset(displayPose());
-  camera_.frame(scenegraph::atLeast(scenegraph::toBox(box), kSmallestFramedRadiusM), aspect());
+  camera_.frame(scenegraph::atLeast(box, kSmallestFramedRadiusM), aspect());
   update();
   Q_EMIT cameraChanged();
 }

@@ -1,5 +1,6 @@
 #include "tools/accuracy/accuracy.h"
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <memory>

@@ -1,9 +1,12 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 
 #include "tools/cli/cli_error.h"
+
+namespace CLI {
+class App;
+}
 
 namespace stillframe::cli {
 

@@ -1,5 +1,6 @@
 #include "tools/cli/effect_arguments.h"
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <string_view>
 

@@ -1,12 +1,15 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "scenegraph/passes/view_effects.h"
 #include "tools/cli/cli_error.h"
+
+namespace CLI {
+class App;
+}
 
 namespace stillframe::cli {
 

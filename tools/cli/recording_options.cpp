@@ -1,5 +1,6 @@
 #include "tools/cli/recording_options.h"
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <filesystem>
 #include <map>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <expected>
 #include <memory>
 #include <string>
@@ -10,6 +9,10 @@
 #include "scenegraph/store/dataset.h"
 #include "tools/cli/cli_error.h"
 #include "tools/ingest/recording.h"
+
+namespace CLI {
+class App;
+}
 
 namespace stillframe::cli {
 

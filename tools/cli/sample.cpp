@@ -1,5 +1,6 @@
 #include "tools/sample/sample.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 

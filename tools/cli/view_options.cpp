@@ -1,5 +1,6 @@
 #include "tools/cli/view_options.h"
 
+#include <CLI/CLI.hpp>
 #include <tuple>
 
 #include "tf/transform_buffer.h"

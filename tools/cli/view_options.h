@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +12,10 @@
 #include "tools/cli/recording_options.h"
 #include "tools/cli/time_argument.h"
 #include "tools/cli/value_arguments.h"
+
+namespace CLI {
+class App;
+}
 
 namespace stillframe::cli {
 

@@ -42,13 +42,21 @@ void lookupAnyTime(benchmark::State& state, ChainWorkload& chain, const Transfor
   }
 }
 
+std::unique_ptr<TransformBuffer> loadAndForget(ChainWorkload& chain) {
+  auto loaded = chain.load();
+  chain.forgetSamples();
+  return loaded;
+}
+
+ChainWorkload shuffledChain() {
+  ChainWorkload chain(16, 60'000);
+  chain.shuffle();
+  return chain;
+}
+
 void bmLookup16DeepInOneHourOf100Hz(benchmark::State& state) {
   static ChainWorkload chain(16, 360'000);
-  static const auto buffer = [] {
-    auto loaded = chain.load();
-    chain.forgetSamples();
-    return loaded;
-  }();
+  static const auto buffer = loadAndForget(chain);
   lookupAnyTime(state, chain, *buffer);
   state.counters["target_us"] = 2;
 }
@@ -60,9 +68,7 @@ void bmLookup16DeepShuffledHour(benchmark::State& state) {
   static ChainWorkload chain(16, 360'000);
   static const auto buffer = [] {
     chain.shuffle();
-    auto loaded = chain.load();
-    chain.forgetSamples();
-    return loaded;
+    return loadAndForget(chain);
   }();
   lookupAnyTime(state, chain, *buffer);
   state.counters["target_us"] = 2;
@@ -74,11 +80,7 @@ BENCHMARK(bmLookup16DeepShuffledHour)
 void bmLookup16DeepAcrossADay(benchmark::State& state) {
   constexpr std::int64_t kDayNs = 86'400'000'000'000;
   static ChainWorkload chain(16, 360'000, kDayNs);
-  static const auto buffer = [] {
-    auto loaded = chain.load();
-    chain.forgetSamples();
-    return loaded;
-  }();
+  static const auto buffer = loadAndForget(chain);
   lookupAnyTime(state, chain, *buffer);
   state.counters["target_us"] = 2;
 }
@@ -129,11 +131,7 @@ void bmBulkInsertInOrder(benchmark::State& state) {
 BENCHMARK(bmBulkInsertInOrder)->Name("BulkInsertInOrder/target_above_5M_per_s")->Unit(benchmark::kMillisecond);
 
 void bmBulkInsertShuffled(benchmark::State& state) {
-  static const auto chain = [] {
-    ChainWorkload workload(16, 60'000);
-    workload.shuffle();
-    return workload;
-  }();
+  static const ChainWorkload chain = shuffledChain();
   bulkInsert(state, chain, 1e6);
 }
 BENCHMARK(bmBulkInsertShuffled)->Name("BulkInsertShuffled/target_above_1M_per_s")->Unit(benchmark::kMillisecond);
@@ -155,11 +153,7 @@ void bmSingleInsertsInOrder(benchmark::State& state) {
 BENCHMARK(bmSingleInsertsInOrder)->Name("SingleInsertsInOrder")->Unit(benchmark::kMillisecond);
 
 void bmSingleInsertsShuffled(benchmark::State& state) {
-  static const auto chain = [] {
-    ChainWorkload workload(16, 60'000);
-    workload.shuffle();
-    return workload;
-  }();
+  static const ChainWorkload chain = shuffledChain();
   singleInserts(state, chain);
 }
 BENCHMARK(bmSingleInsertsShuffled)->Name("SingleInsertsShuffled")->Unit(benchmark::kMillisecond);

@@ -151,6 +151,29 @@ void EdgeCache::split(std::size_t block_index) {
   }
 }
 
+EdgeCache EdgeCache::packed() const {
+  EdgeCache packed;
+  if (empty()) {
+    return packed;
+  }
+  packed.blocks_.reserve((size_ + kBlockSamples - 1) / kBlockSamples);
+  std::size_t left = size_;
+  visit([&](const Sample& sample) {
+    if (packed.blocks_.empty() || packed.blocks_.back().samples.size() == kBlockSamples) {
+      packed.blocks_.push_back({sample.stamp_ns, {}});
+      packed.blocks_.back().samples.reserve(std::min(left, kBlockSamples));
+    }
+    packed.blocks_.back().samples.push_back(sample);
+    --left;
+  });
+  packed.size_ = size_;
+  packed.first_ = first_;
+  packed.last_ = last_;
+  packed.measureRate();
+  packed.makeDirectory();
+  return packed;
+}
+
 void EdgeCache::dropBefore(TimePoint cutoff) {
   if (size_ == 0 || first_ >= cutoff.ns) {
     return;

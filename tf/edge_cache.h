@@ -47,6 +47,12 @@ class EdgeCache {
   void insert(TimePoint stamp, const RigidTransform& parent_from_child);
   /// Drops every sample before `cutoff`.
   void dropBefore(TimePoint cutoff);
+  /// Whether samples came so far out of order that an eighth of the blocks could be spared.
+  [[nodiscard]] bool isLoose() const noexcept {
+    return blocks_.size() > 1 && 8 * (blocks_.size() - 1) * kBlockSamples > 9 * size_;
+  }
+  /// The same samples in full blocks, as if they had come in order: a steady rate is guessed right again. O(n).
+  [[nodiscard]] EdgeCache packed() const;
 
   [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }

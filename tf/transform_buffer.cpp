@@ -131,6 +131,21 @@ BulkInsertReport TransformBuffer::insertBulk(std::span<const TransformSample> sa
   return report;
 }
 
+void TransformBuffer::pack() {
+  const std::lock_guard writer(impl_->writer_mutex);
+  for (FrameId frame = 0; frame < impl_->tree.names().size(); ++frame) {
+    if (!impl_->tree.samples(frame).isLoose()) {
+      continue;
+    }
+    EdgeCache packed = impl_->tree.samples(frame).packed();
+    {
+      const GateClosure closure(impl_->gate);
+      impl_->tree.swapSamples(frame, packed);
+    }
+    impl_->gate.letReadersIn();
+  }
+}
+
 void TransformBuffer::clear() {
   const std::lock_guard writer(impl_->writer_mutex);
   TransformTree old;

@@ -110,6 +110,10 @@ class TransformBuffer {
   /// Adds many, the cheap way to load a file, in any order. Readers get in between batches of a few dozen, so they
   /// may see a part of it.
   BulkInsertReport insertBulk(std::span<const TransformSample> samples);
+  /// Packs the edges whose samples came out of order as if they had come in order, so that lookups cost the same. To be
+  /// called when a load is done. O(samples of those edges), and for a while the memory of one of them more; nothing
+  /// else does it, and it costs O(frames) where there is nothing to do. Readers go on meanwhile.
+  void pack();
   /// Forgets every frame and sample. Frame ids start anew.
   void clear();
   /// Whether edges fed from static topics also answer before their first stamp (DESIGN.md §5); off by default.

@@ -43,6 +43,8 @@ class TransformTree {
   [[nodiscard]] FrameId parent(FrameId frame) const noexcept { return contains(frame) ? parents_[frame] : kNoFrame; }
   /// Samples above a frame; empty for a root. `frame` must be valid.
   [[nodiscard]] const EdgeCache& samples(FrameId frame) const noexcept { return edges_[frame].samples; }
+  /// Replaces them by the same ones, differently kept.
+  void swapSamples(FrameId frame, EdgeCache& samples) noexcept { std::swap(edges_[frame].samples, samples); }
   [[nodiscard]] bool isStatic(FrameId frame) const noexcept { return edges_[frame].is_static; }
   /// Stamp in force on the edge above `frame`.
   [[nodiscard]] std::optional<TimePoint> stampInForce(FrameId frame, TimePoint time) const noexcept;

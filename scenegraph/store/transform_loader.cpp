@@ -186,6 +186,7 @@ void TransformLoader::insertGathered() {
     unlisted_refusals_ += unlisted;
   }
   gathered_ = {};
+  buffer_.pack();
 }
 
 void TransformLoader::refill() {

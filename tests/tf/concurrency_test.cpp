@@ -65,6 +65,7 @@ TEST(TransformBufferThreads, EightReadersAndTwoWritersSeeOnlyWholeAnswers) {
         }
         samples.push_back(sample("bulk", names[static_cast<std::size_t>(first / 100) % names.size()], 0));
         wrong += static_cast<int>(buffer.insertBulk(samples).refused);
+        buffer.pack();
       }
     });
     for (int reader = 0; reader < kReaders; ++reader) {

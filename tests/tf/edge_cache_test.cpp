@@ -190,5 +190,38 @@ TEST(EdgeCache, HoldsASampleIn72BytesOrLessInAnyOrderOfArrival) {
   EXPECT_LE(bytesPerSample(), 72.0);
 }
 
+TEST(EdgeCache, PackedIsAsIfItHadComeInOrder) {
+  for (const std::size_t count : {0U, 1U, 2U, 64U, 65U, 129U, 20'000U}) {
+    std::vector<std::int64_t> stamps(count);
+    std::iota(stamps.begin(), stamps.end(), std::int64_t{1'700'000'000'000'000'000});
+    EdgeCache in_order;
+    for (const std::int64_t stamp : stamps) {
+      in_order.insert(TimePoint{stamp}, translate(static_cast<double>(stamp % 1000), 0, 0));
+    }
+    EXPECT_FALSE(in_order.isLoose()) << count;
+    std::shuffle(stamps.begin(), stamps.end(), std::mt19937_64(11));
+    EdgeCache shuffled;
+    for (const std::int64_t stamp : stamps) {
+      shuffled.insert(TimePoint{stamp}, translate(static_cast<double>(stamp % 1000), 0, 0));
+    }
+    EXPECT_TRUE(count < 1000 || shuffled.isLoose());
+    EdgeCache packed = shuffled.packed();
+    EXPECT_FALSE(packed.isLoose()) << count;
+    EXPECT_LE(packed.bytes(), in_order.bytes()) << count;
+    ASSERT_EQ(packed.size(), count);
+    for (const std::int64_t stamp : stamps) {
+      const EdgeCache::Sample* const found = packed.find(TimePoint{stamp});
+      ASSERT_NE(found, nullptr);
+      ASSERT_EQ(found->stamp_ns, stamp);
+      ASSERT_EQ(found->parent_from_child.translation.x, static_cast<double>(stamp % 1000));
+    }
+    packed.insert(TimePoint{kMax}, translate(1, 0, 0));
+    packed.insert(TimePoint{kMin}, translate(2, 0, 0));
+    EXPECT_EQ(packed.find(TimePoint{kMax})->parent_from_child.translation.x, 1);
+    EXPECT_EQ(packed.find(TimePoint{kMin})->parent_from_child.translation.x, 2);
+    EXPECT_EQ(packed.size(), count + 2);
+  }
+}
+
 }  // namespace
 }  // namespace stillframe::tf

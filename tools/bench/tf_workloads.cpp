@@ -46,6 +46,7 @@ void ChainWorkload::shuffle() { std::shuffle(samples_.begin(), samples_.end(), r
 std::unique_ptr<tf::TransformBuffer> ChainWorkload::load() const {
   auto buffer = std::make_unique<tf::TransformBuffer>();
   buffer->insertBulk(samples_);
+  buffer->pack();
   return buffer;
 }
 

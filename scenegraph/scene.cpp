@@ -28,6 +28,15 @@ tf::FrameId rootOf(tf::FrameId frame, const tf::TransformBuffer& buffer, std::ve
   return root;
 }
 
+/// "TOPIC" of "TOPIC#2", "" when the id is none of a duplicate.
+std::string_view topicOfDuplicate(std::string_view id) {
+  const std::size_t mark = id.rfind('#');
+  const std::string_view number = mark == std::string_view::npos ? "" : id.substr(mark + 1);
+  const bool is_number = !number.empty() && number.size() < 10 && number.front() != '0' && number != "1" &&
+                         number.find_first_not_of("0123456789") == std::string_view::npos;
+  return is_number ? id.substr(0, mark) : std::string_view();
+}
+
 }  // namespace
 
 std::string automaticFixedFrame(const tf::TransformBuffer& buffer) {
@@ -148,51 +157,104 @@ Status Scene::refusal(std::string_view topic) const {
   return {StatusLevel::Error, "UnknownTopic", noSuch("topic", topic, known)};
 }
 
-std::expected<LayerSlot*, Status> Scene::addLayer(std::string_view topic) {
-  if (LayerSlot* const slot = findLayer(topic)) {
+std::expected<LayerSlot*, Status> Scene::addLayer(std::string_view id) {
+  if (LayerSlot* const slot = findLayer(id)) {
     return slot;
   }
-  const LayerType* const type = findType(topic);
+  std::string_view topic = id;
+  const LayerType* type = findType(topic);
+  if (const std::string_view original = topicOfDuplicate(id); type == nullptr && !original.empty()) {
+    topic = original;
+    type = findType(topic);
+  }
   if (type == nullptr) {
     return std::unexpected(refusal(topic));
   }
-  layers_.push_back(std::make_unique<LayerSlot>(LayerSlot{std::string(topic), type, type->create(topic)}));
+  layers_.push_back(std::make_unique<LayerSlot>(
+      LayerSlot{std::string(id), std::string(topic), std::string(id), type, type->create(topic)}));
   layers_.back()->layer->attach(context_);
+  removed_topics_.erase(std::string(id));
   ++layers_revision_;
   return layers_.back().get();
 }
 
-void Scene::addDefaultLayers() {
+std::vector<std::string> Scene::drawableTopics() const {
+  std::vector<std::string> topics;
   for (const LayerType& type : types_) {
     if (type.consumes == ObjectType::None) {
-      (void)addLayer(type.name);
+      topics.emplace_back(type.name);
     }
   }
-  const std::size_t topics = dataset_->store().topicCount();
-  for (TopicId id = 0; id < topics; ++id) {
-    const TopicInfo info = dataset_->store().topic(id);
+  const ObjectStore& store = dataset_->store();
+  const std::size_t count = store.topicCount();
+  for (TopicId id = 0; id < count; ++id) {
+    TopicInfo info = store.topic(id);
     if (std::ranges::any_of(types_, [&](const LayerType& type) {
           return info.type != ObjectType::None &&
-                 (type.consumes == info.type || (type.takes != nullptr && type.takes(dataset_->store(), info)));
+                 (type.consumes == info.type || (type.takes != nullptr && type.takes(store, info)));
         })) {
-      (void)addLayer(info.name);
+      topics.push_back(std::move(info.name));
+    }
+  }
+  return topics;
+}
+
+void Scene::addDefaultLayers() {
+  for (const std::string& topic : drawableTopics()) {
+    if (!removed_topics_.contains(topic)) {
+      (void)addLayer(topic);
     }
   }
 }
 
-void Scene::removeLayer(std::string_view topic) {
+LayerSlot& Scene::duplicateLayer(const LayerSlot& original) {
+  LayerSlot& copy = **addLayer(freeId(original.topic));  // there is a type for it, since there is the original
+  copy.layer->setVisible(original.layer->isVisible());
+  (void)copy.layer->applySettings(original.layer->settings());  // taken from a layer of the same type
+  const auto place = std::ranges::find(layers_, &original, &std::unique_ptr<LayerSlot>::get);
+  std::rotate(std::next(place), std::prev(layers_.end()), layers_.end());
+  return copy;
+}
+
+std::string Scene::freeId(const std::string& topic) const {
+  const auto isTaken = [&](const std::string& id) {
+    return findType(id) != nullptr ||
+           std::ranges::any_of(layers_, [&](const std::unique_ptr<LayerSlot>& slot) { return slot->id == id; });
+  };
+  std::size_t number = 2;
+  std::string id = topic + "#2";
+  while (isTaken(id)) {
+    id = topic + "#" + std::to_string(++number);
+  }
+  return id;
+}
+
+void Scene::removeLayer(std::string_view id) {
   const auto found =
-      std::ranges::find_if(layers_, [&](const std::unique_ptr<LayerSlot>& slot) { return slot->topic == topic; });
+      std::ranges::find_if(layers_, [&](const std::unique_ptr<LayerSlot>& slot) { return slot->id == id; });
   if (found != layers_.end()) {
+    if ((*found)->id == (*found)->topic) {
+      removed_topics_.insert((*found)->topic);
+    }
     (*found)->layer->detach();
     layers_.erase(found);
     ++layers_revision_;
   }
 }
 
-LayerSlot* Scene::findLayer(std::string_view topic) {
+void Scene::arrangeLayers(std::span<const std::string> ids) {
+  const auto rank = [&](const std::unique_ptr<LayerSlot>& slot) {
+    return std::ranges::find(ids, slot->id) - ids.begin();
+  };
+  if (!std::ranges::is_sorted(layers_, {}, rank)) {
+    std::ranges::stable_sort(layers_, {}, rank);
+    ++layers_revision_;
+  }
+}
+
+LayerSlot* Scene::findLayer(std::string_view id) {
   const auto found =
-      std::ranges::find_if(layers_, [&](const std::unique_ptr<LayerSlot>& slot) { return slot->topic == topic; });
+      std::ranges::find_if(layers_, [&](const std::unique_ptr<LayerSlot>& slot) { return slot->id == id; });
   return found == layers_.end() ? nullptr : found->get();
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <osg/BoundingBox>
 #include <osg/Group>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,9 +18,11 @@
 
 namespace stillframe::scenegraph {
 
-/// A layer in a view, with the name it goes by.
+/// A layer in a view, with the names it goes by.
 struct LayerSlot {
+  std::string id;     ///< in its scene: the topic; "TOPIC#2", "TOPIC#3", ... of its duplicates
   std::string topic;  ///< or the type's name for a built-in
+  std::string title;  ///< for people: the id until somebody gives it another
   const LayerType* type = nullptr;
   std::unique_ptr<Layer> layer;
 };
@@ -53,14 +56,25 @@ class Scene {
   /// Returns whether it is another than before.
   bool setBufferTexels(std::uint64_t texels);
 
-  /// Adds a layer for a topic of the store, or a built-in by its type's name; the one that is there when it is. Refuses
-  /// what no type consumes.
-  std::expected<LayerSlot*, Status> addLayer(std::string_view topic);
-  /// Adds the built-ins and a layer for every drawable topic not yet there (new topics of a growing dataset too).
+  /// Adds a layer for a topic of the store, or a built-in by its type's name, and another for the same by "TOPIC#2",
+  /// ...; the one that is there when it is. Refuses what no type consumes.
+  std::expected<LayerSlot*, Status> addLayer(std::string_view id);
+  /// What there can be layers of: the built-ins, then the topics that some type consumes.
+  [[nodiscard]] std::vector<std::string> drawableTopics() const;
+  /// Adds the built-ins and a layer for every drawable topic not yet there (new topics of a growing dataset too), but
+  /// for what was removed.
   void addDefaultLayers();
-  void removeLayer(std::string_view topic);
-  [[nodiscard]] LayerSlot* findLayer(std::string_view topic);
+  /// A second layer of the same topic, with the same settings, right behind `original`. What it decodes is shared.
+  LayerSlot& duplicateLayer(const LayerSlot& original);
+  void removeLayer(std::string_view id);
+  /// Puts the layers of these ids in front, in this order, and leaves the others as they are; unknown ids do nothing.
+  /// Of flat things in one plane the later layer covers the earlier.
+  void arrangeLayers(std::span<const std::string> ids);
+  [[nodiscard]] LayerSlot* findLayer(std::string_view id);
   [[nodiscard]] const std::vector<std::unique_ptr<LayerSlot>>& layers() const noexcept { return layers_; }
+  /// Topics and built-ins that addDefaultLayers() leaves out since their layer was removed; addLayer() takes one off.
+  [[nodiscard]] const std::set<std::string>& removedTopics() const noexcept { return removed_topics_; }
+  void setRemovedTopics(std::set<std::string> topics) { removed_topics_ = std::move(topics); }
 
   /// Poses frames and updates layers for `time`. Returns whether the picture may have changed: not when time, fixed
   /// frame, data, layers and their settings are what they were and no background work has finished.
@@ -86,6 +100,7 @@ class Scene {
   };
   [[nodiscard]] const LayerType* findType(std::string_view topic) const;
   [[nodiscard]] Status refusal(std::string_view topic) const;
+  [[nodiscard]] std::string freeId(const std::string& topic) const;
   [[nodiscard]] std::string firstSourceFrame() const;
   void updateLayers(tf::TimePoint time);
   bool noteSettings();
@@ -96,6 +111,7 @@ class Scene {
   std::shared_ptr<std::atomic<bool>> has_new_work_;  // set from any thread when background work has finished
   LayerContext context_;
   std::vector<std::unique_ptr<LayerSlot>> layers_;
+  std::set<std::string> removed_topics_;
   std::uint64_t layers_revision_ = 0;
   std::uint64_t buffer_texels_ = kUsualBufferTexels;
   std::optional<std::string> chosen_frame_;

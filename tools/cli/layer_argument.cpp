@@ -53,7 +53,7 @@ Result<LayerArgument> parseLayer(std::string_view text) {
     colon = text.find(':', colon + 1);
   }
   LayerArgument layer{std::string(text.substr(0, colon)), {}};
-  if (layer.topic.empty()) {
+  if (layer.id.empty()) {
     return usageError(quoted + " names no topic");
   }
   if (colon == std::string_view::npos) {

@@ -10,7 +10,7 @@ namespace stillframe::cli {
 
 /// `--layer TOPIC[:key=value,...]`.
 struct LayerArgument {
-  std::string topic;  ///< or a built-in: "tf", "grid"
+  std::string id;  ///< a topic, a built-in ("tf", "grid"), or a duplicate of one ("TOPIC#2")
   scenegraph::SettingTexts settings;
 };
 

@@ -24,7 +24,7 @@ std::expected<void, scenegraph::Status> addLayerIds(scenegraph::OffscreenRendere
   std::vector<float> nearest(all->depth_m.size(), std::numeric_limits<float>::infinity());  // metres off
   std::expected<void, scenegraph::Status> result;
   for (std::size_t shown = 0; shown < layers.size() && result; ++shown) {
-    picture.layer_names.push_back(layers[shown]->topic);
+    picture.layer_names.push_back(layers[shown]->id);
     if (!was_visible[shown]) {
       continue;
     }

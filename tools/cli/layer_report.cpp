@@ -16,7 +16,9 @@ Json layersJson(const scenegraph::Scene& scene) {
       counts[name] = count;
     }
     layers.push_back(
-        {{"topic", slot->topic},
+        {{"id", slot->id},
+         {"title", slot->title},
+         {"topic", slot->topic},
          {"type", slot->type->name},
          {"frame", layer.sourceFrame()},
          {"visible", layer.isVisible()},
@@ -42,7 +44,7 @@ void printRemarks(const scenegraph::Scene& scene, const scenegraph::Dataset& dat
   for (const auto& slot : scene.layers()) {
     const scenegraph::Status& status = slot->layer->status();
     if (status.level != scenegraph::StatusLevel::Ok) {
-      std::printf("  %s: %s, %s: %s\n", printable(slot->topic).c_str(),
+      std::printf("  %s: %s, %s: %s\n", printable(slot->id).c_str(),
                   std::string(scenegraph::toString(status.level)).c_str(), status.code.c_str(),
                   printable(status.message).c_str());
     }

@@ -6,12 +6,11 @@
 #include <iterator>
 
 #include "nodes/registry.h"
+#include "scenegraph/layer_list.h"
 #include "scenegraph/near_names.h"
 #include "scenegraph/osg_box.h"
 
 namespace stillframe::cli {
-
-using scenegraph::LayerSlot;
 
 Result<std::unique_ptr<SceneSession>> SceneSession::make(const ViewOptions& options) {
   std::unique_ptr<SceneSession> session(new SceneSession(options));
@@ -55,7 +54,7 @@ Result<void> SceneSession::addLayers() {
     scene_->addDefaultLayers();
   }
   for (const LayerArgument& named : options_.layers) {
-    const auto slot = scene_->addLayer(named.topic);
+    const auto slot = scene_->addLayer(named.id);
     if (!slot) {
       return usageError(options_.recording.file + ": " + slot.error().message);
     }
@@ -68,8 +67,9 @@ Result<void> SceneSession::chooseFrame() {
   updateFully();
   // Settings come after the first update: which choices a colour field has is known once there is data.
   for (const LayerArgument& named : options_.layers) {
-    if (const auto applied = applyLayerSettings(*scene_->findLayer(named.topic), named.settings); !applied) {
-      return usageError(options_.recording.file + ": layer '" + named.topic + "': " + applied.error().message);
+    const auto applied = scenegraph::applyLayerSettings(named.settings, *scene_->findLayer(named.id));
+    if (!applied) {
+      return usageError(options_.recording.file + ": layer '" + named.id + "': " + applied.error().message);
     }
   }
   // A frame may be known by the data in it alone, without any transform.
@@ -187,28 +187,10 @@ scenegraph::ExportInfo SceneSession::exportInfo() const {
                               .viewport_height_px = options_.size.height_px};
   for (const auto& slot : scene_->layers()) {
     if (slot->layer->isVisible()) {
-      info.layers.emplace_back(slot->topic, slot->layer->settings());
+      info.layers.emplace_back(slot->id, slot->layer->settings());
     }
   }
   return info;
-}
-
-Result<void> applyLayerSettings(LayerSlot& slot, scenegraph::SettingTexts settings) {
-  if (const auto visible = settings.find("visible"); visible != settings.end()) {
-    const scenegraph::SettingSpec spec{
-        .key = "visible", .label = "Visible", .help = {}, .kind = scenegraph::SettingKind::Bool};
-    const auto value = scenegraph::parseSetting(spec, visible->second);
-    if (!value) {
-      return usageError(value.error().message);
-    }
-    slot.layer->setVisible(std::get<bool>(*value));
-    settings.erase(visible);
-  }
-  if (settings.empty()) {
-    return {};
-  }
-  const auto applied = slot.layer->applySettings(settings);
-  return applied ? Result<void>{} : usageError(applied.error().message);
 }
 
 }  // namespace stillframe::cli

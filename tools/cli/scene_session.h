@@ -49,7 +49,4 @@ class SceneSession {
   scenegraph::Follow follow_;
 };
 
-/// Applies `settings` to the layer of `slot`; `visible` is understood for every layer.
-[[nodiscard]] Result<void> applyLayerSettings(scenegraph::LayerSlot& slot, scenegraph::SettingTexts settings);
-
 }  // namespace stillframe::cli

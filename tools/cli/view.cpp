@@ -87,7 +87,7 @@ Result<void> runView(const ViewCommandOptions& options) {
     if (!layer) {
       return std::unexpected(layer.error());
     }
-    inspector.layers.layers.push_back({std::move(layer->topic), std::move(layer->settings)});
+    inspector.layers.layers.push_back({std::move(layer->id), std::move(layer->settings)});
   }
   for (const std::string& file : options.files) {
     if (const auto checked = checkFile(file); !checked) {

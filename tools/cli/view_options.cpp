@@ -46,7 +46,9 @@ ViewArguments::ViewArguments(CLI::App& command) {
   command.add_option("--fixed-frame", fixed_frame_, "Frame that stands still; default: map, world, odom, ...");
   command
       .add_option("--layer", layers_,
-                  "TOPIC[:key=value,...]: settings of a layer, e.g. grid:visible=false; may be repeated")
+                  "TOPIC[:key=value,...]: settings of a layer, e.g. grid:visible=false; TOPIC#2 is a second layer of "
+                  "it; may be "
+                  "repeated")
       ->type_name("LAYER")
       ->allow_extra_args(false);
   command.add_flag("--only", options_.only_named_layers, "Draw just the layers named by --layer");

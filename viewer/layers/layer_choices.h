@@ -9,7 +9,7 @@ namespace stillframe::viewer {
 
 /// A layer named by the user, with settings.
 struct LayerChoice {
-  std::string topic;
+  std::string id;  ///< see scenegraph::LayerSlot
   scenegraph::SettingTexts settings;
 };
 

@@ -150,8 +150,8 @@ LayerPanel::Row LayerPanel::addRow(const scenegraph::LayerSlot& slot) {
   row.layer = slot.layer.get();
   row.item = new QTreeWidgetItem(this);
   const QString label = QString::fromUtf8(slot.type->label.data(), static_cast<qsizetype>(slot.type->label.size()));
-  const bool is_builtin = slot.type->consumes == scenegraph::ObjectType::None;
-  row.item->setText(0, is_builtin ? label : QString::fromStdString(slot.topic));
+  const bool is_builtin = slot.type->consumes == scenegraph::ObjectType::None && slot.title == slot.topic;
+  row.item->setText(0, is_builtin ? label : QString::fromStdString(slot.title));
   row.item->setToolTip(0, is_builtin ? label : QString::fromStdString(slot.topic) + QStringLiteral("\n") + label);
   row.item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
   row.item->setCheckState(0, Qt::Checked);

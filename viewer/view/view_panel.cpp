@@ -133,17 +133,13 @@ void ViewPanel::addWantedLayers() {
     if (is_choice_applied_[i]) {
       continue;
     }
-    scenegraph::LayerSlot* slot = scene->findLayer(choice.topic);
-    if (slot == nullptr) {
-      const auto added = scene->addLayer(choice.topic);
-      if (!added) {
-        continue;  // the topic may come while the file loads
-      }
-      slot = *added;
+    const auto slot = scene->addLayer(choice.id);
+    if (!slot) {
+      continue;  // the topic may come while the file loads
     }
     is_choice_applied_[i] = true;
-    if (const auto applied = slot->layer->applySettings(choice.settings); !applied) {
-      Q_EMIT refused(QString::fromStdString(choice.topic + ": " + applied.error().message));
+    if (const auto applied = scenegraph::applyLayerSettings(choice.settings, **slot); !applied) {
+      Q_EMIT refused(QString::fromStdString(choice.id + ": " + applied.error().message));
     }
   }
 }
@@ -231,9 +227,7 @@ ViewState ViewPanel::state() const {
   state.is_camera_touched = view_->isCameraTouched();
   state.saved_views = view_->savedViews();
   state.has_smooth_moves = view_->hasSmoothMoves();
-  for (const auto& slot : scene->layers()) {
-    state.layers[slot->topic] = {slot->layer->isVisible(), slot->layer->settings()};
-  }
+  state.layers = scenegraph::layerList(*scene);
   return state;
 }
 
@@ -247,15 +241,8 @@ void ViewPanel::setState(const ViewState& state) {
     return;
   }
   scene->setFixedFrame(state.fixed_frame);
-  for (const auto& [topic, layer] : state.layers) {
-    scenegraph::LayerSlot* slot = scene->findLayer(topic);
-    if (slot == nullptr) {
-      continue;
-    }
-    slot->layer->setVisible(layer.is_visible);
-    if (const auto applied = slot->layer->applySettings(layer.settings); !applied) {
-      Q_EMIT refused(QString::fromStdString(topic + ": " + applied.error().message));
-    }
+  for (const scenegraph::Status& status : scenegraph::applyLayerList(state.layers, *scene)) {
+    Q_EMIT refused(QString::fromStdString(status.message));
   }
   view_->setSavedViews(state.saved_views);
   view_->setSmoothMoves(state.has_smooth_moves);

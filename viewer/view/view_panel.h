@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QWidget>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "scenegraph/camera/view_camera.h"
+#include "scenegraph/layer_list.h"
 #include "scenegraph/passes/view_effects.h"
 #include "scenegraph/scene.h"
 #include "viewer/layers/layer_choices.h"
@@ -27,16 +27,12 @@ class SceneWidget;
 
 /// All that makes a view what it is, in plain values: what a copy of it takes over, and what is saved and restored.
 struct ViewState {
-  struct LayerState {
-    bool is_visible = true;
-    scenegraph::SettingTexts settings;
-  };
   std::optional<std::string> fixed_frame;
   scenegraph::ViewpointState viewpoint;
   bool is_camera_touched = false;  ///< false: whatever there is to see is in sight
   std::vector<scenegraph::SavedView> saved_views;
   bool has_smooth_moves = true;
-  std::map<std::string, LayerState> layers;  ///< by topic
+  scenegraph::LayerList layers;
   bool shows_layers = true;
   scenegraph::ViewEffects effects;  ///< toTexts() and fromTexts() for layouts
   bool shows_effects = false;

@@ -12,29 +12,29 @@ using Settings = scenegraph::SettingTexts;
 TEST(LayerArgument, TakesLinksOfARobotAsKeys) {
   const auto layer = parseLayer("/a/robot_description:opacity=0.5,link.left-arm/tip.visible=false");
   ASSERT_TRUE(layer);
-  EXPECT_EQ(layer->topic, "/a/robot_description");
+  EXPECT_EQ(layer->id, "/a/robot_description");
   EXPECT_EQ(layer->settings.at("link.left-arm/tip.visible"), "false");
 }
 
 TEST(LayerArgument, TakesATopicAlone) {
   const auto layer = parseLayer("/lidar/points");
   ASSERT_TRUE(layer);
-  EXPECT_EQ(layer->topic, "/lidar/points");
+  EXPECT_EQ(layer->id, "/lidar/points");
   EXPECT_TRUE(layer->settings.empty());
 }
 
 TEST(LayerArgument, TakesSettings) {
   const auto layer = parseLayer("/lidar/points:color=intensity,point_size=3");
   ASSERT_TRUE(layer);
-  EXPECT_EQ(layer->topic, "/lidar/points");
+  EXPECT_EQ(layer->id, "/lidar/points");
   EXPECT_EQ(layer->settings, (Settings{{"color", "intensity"}, {"point_size", "3"}}));
 }
 
 TEST(LayerArgument, KeepsColonsOfTheTopicAndOfValues) {
-  EXPECT_EQ(parseLayer("a:b::c")->topic, "a:b::c");
+  EXPECT_EQ(parseLayer("a:b::c")->id, "a:b::c");
   const auto layer = parseLayer("ns:/points:2:color=a:b=c");
   ASSERT_TRUE(layer);
-  EXPECT_EQ(layer->topic, "ns:/points:2");
+  EXPECT_EQ(layer->id, "ns:/points:2");
   EXPECT_EQ(layer->settings, (Settings{{"color", "a:b=c"}}));
 }
 

@@ -76,6 +76,21 @@ TEST(RenderCommand, DrawsJustTheNamedLayers) {
   EXPECT_EQ(run(folder.path(), {"render", sample, "--out", "a.png", "--only"}).code, 2);
 }
 
+TEST(RenderCommand, DrawsASecondLayerOfATopicByItsNumber) {
+  const TestFolder folder;
+  const Outcome drawn =
+      run(folder.path(), {"render", folder.makeSample(), "--out", "a.png", "--only", "--layer", "/lidar/points",
+                          "--layer", "/lidar/points#2:title=By height,color_field=z", "--size", "64x64", "--json"});
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  const auto layers = drawn.json()["layers"];
+  ASSERT_EQ(layers.size(), 2U);
+  EXPECT_EQ(layers[0]["id"], "/lidar/points");
+  EXPECT_EQ(layers[1]["id"], "/lidar/points#2");
+  EXPECT_EQ(layers[1]["title"], "By height");
+  EXPECT_EQ(layers[1]["topic"], "/lidar/points");
+  EXPECT_EQ(layers[1]["counts"], layers[0]["counts"]);
+}
+
 TEST(RenderCommand, HidesALayerThatIsToBeHidden) {
   const TestFolder folder;
   const Outcome drawn = run(folder.path(), {"render", folder.makeSample(), "--out", "a.png", "--layer",

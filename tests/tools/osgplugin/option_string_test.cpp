@@ -29,7 +29,7 @@ TEST(OptionString, TakesJustTheseLayers) {
   ASSERT_TRUE(options);
   EXPECT_TRUE(options->view.only_named_layers);
   ASSERT_EQ(options->view.layers.size(), 2U);
-  EXPECT_EQ(options->view.layers[0].topic, "/a");
+  EXPECT_EQ(options->view.layers[0].id, "/a");
   EXPECT_EQ(options->view.layers[1].settings.at("color"), "x");
   EXPECT_EQ(options->view.layers[1].settings.at("size"), "1;2");
 }

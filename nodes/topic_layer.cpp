@@ -80,6 +80,11 @@ std::vector<scenegraph::Box> TopicLayer::bulkInFixed() const {
   return {bounds_.valid() ? scenegraph::toBox(boxInFixed(fixed_from_data_, bulk())) : scenegraph::Box()};
 }
 
+std::optional<scenegraph::Picked> TopicLayer::describe(const scenegraph::PickHit& hit) const {
+  const bool is_ours = visible_ && context_ && held_frame_ == hit.frame && hit.isBeneath(*node_);
+  return is_ours ? describeData(hit) : std::nullopt;
+}
+
 void TopicLayer::hold(const std::optional<std::string>& frame) {
   if (held_frame_ == frame) {
     return;

@@ -31,6 +31,7 @@ class TopicLayer : public scenegraph::Layer {
   [[nodiscard]] bool isPending() const final { return visible_ && context_ && isWorking(); }
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const final { return bounds_; }
   [[nodiscard]] std::vector<scenegraph::Box> bulkInFixed() const final;
+  [[nodiscard]] std::optional<scenegraph::Picked> describe(const scenegraph::PickHit& hit) const final;
 
  protected:
   /// fixed_from_data at the tick.
@@ -57,6 +58,10 @@ class TopicLayer : public scenegraph::Layer {
   [[nodiscard]] virtual osg::BoundingBoxd box() const = 0;
   /// The same without stray points far off; only called when box() is valid.
   [[nodiscard]] virtual osg::BoundingBoxd bulk() const { return box(); }
+  /// What has been hit beneath node(); nullopt when that is not of the data shown.
+  [[nodiscard]] virtual std::optional<scenegraph::Picked> describeData(const scenegraph::PickHit& /*hit*/) const {
+    return std::nullopt;
+  }
   /// Ok, or why load() did not bring what is wanted.
   [[nodiscard]] virtual const scenegraph::Status& sourceStatus() const = 0;
   /// What there is to say of data that is loaded and placed.

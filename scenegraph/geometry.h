@@ -21,6 +21,9 @@ namespace stillframe::scenegraph {
 /// otherwise, in a stock viewer for one.
 inline constexpr osg::Node::NodeMask kOpaquePoints = 0x2;
 
+/// Node mask of mere reference, a ground grid: never what somebody means who points at the picture.
+inline constexpr osg::Node::NodeMask kReference = 0x4;
+
 /// The program of these two shaders, the same object for every caller with the same name and text, for as long as
 /// somebody uses it: OSG then sorts by it and compiles it once a context. Any thread.
 ///

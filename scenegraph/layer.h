@@ -17,6 +17,8 @@
 #include "scenegraph/executor.h"
 #include "scenegraph/frame_graph.h"
 #include "scenegraph/osg_box.h"
+#include "scenegraph/pick/pick_hit.h"
+#include "scenegraph/pick/picked.h"
 #include "scenegraph/settings.h"
 #include "scenegraph/status.h"
 #include "scenegraph/store/dataset.h"
@@ -83,6 +85,8 @@ class Layer {
   /// The same without stray points far off, in the pieces that may be strays themselves beside those of other layers:
   /// what a first view should hold is chosen among them. May take milliseconds.
   [[nodiscard]] virtual std::vector<Box> bulkInFixed() const { return {toBox(boundsInFixed())}; }
+  /// What the id pass has hit, with all its fields; nullopt when that is none of what this layer draws.
+  [[nodiscard]] virtual std::optional<Picked> describe(const PickHit& /*hit*/) const { return std::nullopt; }
 
   /// Settings and what they may be now (a colour field's choices come from the data).
   [[nodiscard]] virtual std::vector<SettingSpec> settingSpecs() const = 0;

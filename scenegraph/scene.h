@@ -40,6 +40,7 @@ class Scene {
   [[nodiscard]] Dataset& dataset() noexcept { return *dataset_; }
   [[nodiscard]] osg::Group& root() noexcept { return frames_.root(); }
   [[nodiscard]] FrameGraph& frames() noexcept { return frames_; }
+  [[nodiscard]] const FrameGraph& frames() const noexcept { return frames_; }
 
   /// Frame chosen by hand, or nullopt to choose by itself: map, world, odom, ... else the root with the most frames.
   void setFixedFrame(std::optional<std::string> frame);

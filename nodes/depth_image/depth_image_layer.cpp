@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nodes/images/depth_map.h"
+#include "nodes/points/record_fields.h"
 
 namespace stillframe::nodes {
 
@@ -186,6 +187,36 @@ ValueRange DepthImageLayer::Percentiles::of(const std::shared_ptr<const DepthFra
     of_high = high;
   }
   return range;
+}
+
+std::optional<scenegraph::Picked> DepthImageLayer::describeData(const scenegraph::PickHit& hit) const {
+  const std::size_t i = hit.vertex;
+  if (shown_.depth == nullptr || shown_.rays == nullptr || i >= shown_.depth->pixels() ||
+      i >= shown_.rays->rays->size()) {
+    return std::nullopt;
+  }
+  const DepthFrame& depth = *shown_.depth;
+  const osg::Vec3& ray = (*shown_.rays->rays)[i];
+  const float metres = (*depth.depths)[i];
+  const std::size_t column = i % depth.width;
+  const std::size_t row = i / depth.width;
+  scenegraph::Picked picked{.kind = "pixel",
+                            .id = std::to_string(column) + "," + std::to_string(row),
+                            .point_in_frame = static_cast<double>(metres) * glm::dvec3(static_cast<double>(ray.x()),
+                                                                                       static_cast<double>(ray.y()),
+                                                                                       static_cast<double>(ray.z())),
+                            .stamp = depth.source->stamp,
+                            .fields = {},
+                            .radius_m = 0.5};
+  picked.add("column", column);
+  picked.add("row", row);
+  picked.add("depth_m", metres);
+  picked.add("encoding", depth.source->encoding);
+  if (shown_.colors != nullptr && i < shown_.colors->colors->size()) {
+    const osg::Vec4ub& color = (*shown_.colors->colors)[i];
+    picked.add("color", colorText(color.r(), color.g(), color.b()));
+  }
+  return picked;
 }
 
 Status DepthImageLayer::remark() const {

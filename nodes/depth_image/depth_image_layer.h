@@ -62,6 +62,7 @@ class DepthImageLayer final : public SampleLayer<DepthFrame, DepthImageSettings>
   [[nodiscard]] std::optional<Anchor> load(const scenegraph::Tick& tick) override;
   void show() override {}  // load() joins and shows
   [[nodiscard]] Anchor anchorOf(const DepthFrame& frame) const override;
+  [[nodiscard]] std::optional<scenegraph::Picked> describeData(const scenegraph::PickHit& hit) const override;
   void draw(const Placement& fixed_from_data) override;
   [[nodiscard]] osg::BoundingBoxd box() const override;
   [[nodiscard]] scenegraph::Status remark() const override;

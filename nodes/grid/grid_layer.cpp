@@ -75,6 +75,7 @@ void GridLayer::attach(const scenegraph::LayerContext& context) {
   context_.emplace(context);
   geometry_ = scenegraph::makeGeometry();
   geometry_->setName("grid");
+  geometry_->setNodeMask(scenegraph::kReference);
   geometry_->setStateSet(lines_.stateSet());
   applied_.reset();
 }

@@ -1,9 +1,13 @@
 #include "nodes/grid_map/grid_map_layer.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "nodes/flat_order.h"
 #include "nodes/osg_math.h"
+#include "nodes/points/read_value.h"
+#include "nodes/points/record_fields.h"
 
 namespace stillframe::nodes {
 
@@ -165,6 +169,45 @@ void GridMapLayer::paint() {
     state_.apply(chosen(), !choice_->height.empty(), choice_->mode == MapColorMode::Rgb && product()->cells().alpha);
   }
   state_.setColor(choice_->mode, texture, map);
+}
+
+std::optional<scenegraph::Picked> GridMapLayer::describeData(const scenegraph::PickHit& hit) const {
+  if (product() == nullptr) {
+    return std::nullopt;
+  }
+  const scenegraph::GridMap& map = product()->source();
+  const glm::dvec3 in_map = tf::transformPoint(tf::inverse(map.origin), scenegraph::surfacePoint(hit));
+  const double column = std::floor(in_map.x / map.cell_size_m.x);
+  const double row = std::floor(in_map.y / map.cell_size_m.y);
+  if (!(column >= 0.0 && column < map.column_count && row >= 0.0 && row < map.row_count)) {
+    return std::nullopt;
+  }
+  const auto x = static_cast<std::size_t>(column);
+  const auto y = static_cast<std::size_t>(row);
+  scenegraph::Picked picked{.kind = "cell",
+                            .id = std::to_string(x) + "," + std::to_string(y),
+                            .point_in_frame = {},
+                            .stamp = map.stamp,
+                            .fields = {},
+                            .radius_m = std::max(1.0, 4.0 * std::max(map.cell_size_m.x, map.cell_size_m.y))};
+  picked.add("column", x);
+  picked.add("row", y);
+  addRecordFields(picked, product()->cells().records.fields,
+                  recordAt(map.data.bytes, y * map.row_stride + x * map.cell_stride, map.cell_stride), false);
+  // The middle of the cell at its own height; between cells with a height the surface is drawn over one without.
+  double height = in_map.z;
+  for (const ChannelInfo& layer : product()->cells().layers) {
+    if (choice_ && layer.name == choice_->height) {
+      const auto value = recordAt(map.data.bytes, y * map.row_stride + x * map.cell_stride + layer.offset,
+                                  scenegraph::byteSize(layer.type));
+      const double own =
+          value.size() == scenegraph::byteSize(layer.type) ? valueReader(layer.type, false)(value.data()) : in_map.z;
+      height = std::isfinite(own) ? own : in_map.z;
+    }
+  }
+  picked.point_in_frame =
+      tf::transformPoint(map.origin, {(column + 0.5) * map.cell_size_m.x, (row + 0.5) * map.cell_size_m.y, height});
+  return picked;
 }
 
 Status GridMapLayer::remark() const {

@@ -47,6 +47,7 @@ class GridMapLayer final : public SampleLayer<GridSurface, GridMapSettings> {
   void show() override;
   [[nodiscard]] std::optional<Anchor> load(const scenegraph::Tick& tick) override;
   [[nodiscard]] Anchor anchorOf(const GridSurface& map) const override;
+  [[nodiscard]] std::optional<scenegraph::Picked> describeData(const scenegraph::PickHit& hit) const override;
   void draw(const Placement& fixed_from_data) override;
   [[nodiscard]] osg::BoundingBoxd box() const override { return box_; }
   [[nodiscard]] scenegraph::Status remark() const override;

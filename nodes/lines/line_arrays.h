@@ -72,6 +72,8 @@ class LineBuilder {
   void add(const glm::dvec3& point, const osg::Vec4ub& color = {255, 255, 255, 255}, float value = 0.0F);
   void end();
 
+  /// Points so far.
+  [[nodiscard]] std::size_t size() const { return arrays_.points->size(); }
   /// Empty afterwards.
   [[nodiscard]] LineArrays take();
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <glm/geometric.hpp>
 #include <osg/PrimitiveSet>
 #include <osg/StateSet>
 #include <osg/TextureBuffer>
@@ -69,10 +70,11 @@ void LineDrawable::set(const LineArrays& arrays) {
   geometry_->removePrimitiveSet(0, geometry_->getNumPrimitiveSets());
   geometry_->setVertexArray(nullptr);
   geometry_->dirtyBound();
-  styles_ = nullptr;
+  styles_ = points_ = nullptr;
   if (arrays.segments == 0) {
     return;
   }
+  points_ = arrays.points;
   styles_ = new osg::Vec4Array(arrays.styles->begin(), arrays.styles->end());
   bind(kPointsUnit, "u_points", arrays.points, kRgba32f);
   bind(kStylesUnit, "u_styles", styles_, kRgba32f);
@@ -135,6 +137,30 @@ void LineDrawable::setValueColors(const std::string& colormap, const RangeMap& m
   coloring_.setColormap(colormap);
   coloring_.setMissingColor(missing);
   coloring_.setMode(mode_, map_);
+}
+
+std::optional<LineDrawable::SegmentHit> LineDrawable::segmentAt(const scenegraph::PickHit& hit) const {
+  int batch = 1;
+  batch_->get(batch);
+  // Two triangles a segment.
+  const std::size_t end = std::size_t{hit.instance} * static_cast<std::size_t>(batch) + hit.primitive / 2 + 1;
+  if (!points_.valid() || end >= points_->size()) {
+    return std::nullopt;
+  }
+  const auto at = [&](std::size_t i) {
+    const osg::Vec4& point = (*points_)[i];
+    const osg::Vec3d in_frame = osg::Vec3d(point.x(), point.y(), point.z()) * hit.frame_from_local;
+    return glm::dvec3(in_frame.x(), in_frame.y(), in_frame.z());
+  };
+  // The nearest points of two lines, on the segment clamped to its ends.
+  const glm::dvec3 start = at(end - 1);
+  const glm::dvec3 way = at(end) - start;
+  const glm::dvec3 sight = glm::normalize(hit.ray_in_frame.direction);
+  const glm::dvec3 across = way - glm::dot(way, sight) * sight;
+  const glm::dvec3 to_ray = hit.ray_in_frame.origin - start;
+  const double square = glm::dot(across, across);
+  const double t = square > 0.0 ? std::clamp(glm::dot(to_ray, across) / square, 0.0, 1.0) : 0.0;
+  return SegmentHit{end, t > 0.5, start + t * way};
 }
 
 void LineDrawable::blend() {

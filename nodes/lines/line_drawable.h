@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <osg/Geometry>
 #include <osg/Uniform>
 #include <osg/ref_ptr>
@@ -8,6 +9,7 @@
 #include "nodes/coloring_state.h"
 #include "nodes/lines/line_arrays.h"
 #include "nodes/points/value_range.h"
+#include "scenegraph/pick/pick_hit.h"
 #include "scenegraph/settings.h"
 
 namespace stillframe::nodes {
@@ -40,12 +42,21 @@ class LineDrawable {
   void setDepthPull(double half_widths);
   /// Colours of Channel::Values: `map` takes a value to 0..1 over the colormap of that name.
   void setValueColors(const std::string& colormap, const RangeMap& map, const scenegraph::Color& missing);
+  /// The segment that is hit, by the number of the point where it ends (in LineArrays::points), and where on it, in the
+  /// frame of the parent of the node above: the nearest point to the line of sight.
+  struct SegmentHit {
+    std::size_t end = 0;
+    bool is_nearer_to_end = false;
+    glm::dvec3 point_in_frame{0.0};
+  };
+  [[nodiscard]] std::optional<SegmentHit> segmentAt(const scenegraph::PickHit& hit) const;
 
  private:
   void blend();
   void bind(unsigned unit, const char* sampler, osg::Array* texels, GLint format);
 
   osg::ref_ptr<osg::Geometry> geometry_;
+  osg::ref_ptr<osg::Vec4Array> points_;
   osg::ref_ptr<osg::Vec4Array> styles_;
   osg::ref_ptr<osg::Uniform> batch_;
   osg::ref_ptr<osg::Uniform> point_count_;

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <osg/BoundingBox>
 #include <osg/Group>
 #include <osg/ref_ptr>
 #include <string>
+#include <utility>
 
 #include "nodes/markers/entity_shapes.h"
 #include "nodes/markers/rest_parts.h"
@@ -32,6 +34,9 @@ class FrameParts {
   void close(IsKept is_kept) {
     std::erase_if(batches_, [&](const auto& batch) { return !is_kept(batch.first); });
   }
+  /// The batch that is hit, and its mesh; nullopt when it is none.
+  [[nodiscard]] std::optional<std::pair<ShapeBatchKey, const InstancedMesh*>> batchAt(
+      const scenegraph::PickHit& hit) const;
   [[nodiscard]] RestParts& rest() noexcept { return rest_; }
   [[nodiscard]] const RestParts& rest() const noexcept { return rest_; }
   void setLook(double opacity, bool shows_texts);

@@ -16,6 +16,8 @@
 #include "nodes/markers/scene_state.h"
 #include "nodes/text/text_maker.h"
 #include "scenegraph/frame_graph.h"
+#include "scenegraph/pick/pick_hit.h"
+#include "scenegraph/pick/picked.h"
 
 namespace stillframe::nodes {
 
@@ -36,6 +38,9 @@ class MarkerPicture {
   [[nodiscard]] std::optional<scenegraph::Status> modelFailure() const;
   /// Draws nothing and holds no frame.
   void clear();
+
+  /// The entity that is hit, with its fields; nullopt when it is none of these.
+  [[nodiscard]] std::optional<scenegraph::Picked> describe(const scenegraph::PickHit& hit) const;
 
   struct Counts {
     std::uint64_t entities = 0;    ///< drawn, as far as they have a place

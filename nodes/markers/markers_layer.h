@@ -38,6 +38,10 @@ class MarkersLayer final : public scenegraph::Layer {
     return visible_ && tracker_ && (tracker_->isPending() || shelf_->isPending());
   }
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const override { return bounds_; }
+  /// An entity, where one of its primitives is hit.
+  [[nodiscard]] std::optional<scenegraph::Picked> describe(const scenegraph::PickHit& hit) const override {
+    return visible_ && picture_ ? picture_->describe(hit) : std::nullopt;
+  }
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
   std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;

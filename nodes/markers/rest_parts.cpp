@@ -215,6 +215,7 @@ void RestParts::makeLines() {
   for (const std::size_t i : {0U, 1U}) {
     Strokes& strokes = strokes_[i];
     LineBuilder builder(at, LineBuilder::Channel::Colors);
+    strokes.ends.clear();
     for (const auto& [slot, entity] : entities_) {
       for (const LinePrimitive& line : entity->lines) {
         if (isTranslucent(line) == (i == 1)) {
@@ -226,6 +227,7 @@ void RestParts::makeLines() {
           addAxes(axes, builder);
         }
       }
+      strokes.ends.emplace_back(builder.size(), slot);
     }
     const LineArrays arrays = builder.take();
     unsound_lines_ += arrays.not_finite + arrays.out_of_reach;
@@ -244,12 +246,14 @@ void RestParts::makeTriangles() {
   for (const std::size_t i : {0U, 1U}) {
     TriangleDrawable& surface = *surfaces_[i];
     surface.clear();
+    surface_ends_[i].clear();
     for (const auto& [slot, entity] : entities_) {
       for (const TrianglePrimitive& triangles : entity->triangles) {
         if (isTranslucent(triangles) == (i == 1)) {
           unsound_triangles_ += addTriangles(triangles, surface);
         }
       }
+      surface_ends_[i].emplace_back(surface.size(), slot);
     }
     surface.commit();
   }
@@ -272,6 +276,7 @@ void RestParts::collectModels(WantedModels& wanted) const {
 
 void RestParts::makeModels() {
   model_node_->removeChildren(0, model_node_->getNumChildren());
+  model_slots_.clear();
   unsound_models_ = failed_models_ = 0;
   model_failure_.reset();
   models_box_.init();
@@ -299,6 +304,7 @@ void RestParts::makeModels() {
           new osg::MatrixTransform(osg::Matrixd::scale(model.scale.x, model.scale.y, model.scale.z) * toOsg(pose));
       place->addChild((*found->second)->makeNode(color, model.is_color_override));
       model_node_->addChild(place);
+      model_slots_.push_back(slot);
       for (unsigned i = 0; (*found->second)->box().valid() && i < 8; ++i) {
         models_box_.expandBy((*found->second)->box().corner(i) * place->getMatrix());
       }

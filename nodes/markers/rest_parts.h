@@ -11,6 +11,7 @@
 #include <osg/MatrixTransform>
 #include <osg/ref_ptr>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nodes/lines/line_drawable.h"
@@ -19,6 +20,7 @@
 #include "nodes/primitives/triangle_drawable.h"
 #include "nodes/text/text_maker.h"
 #include "scenegraph/objects/scene_entities.h"
+#include "scenegraph/pick/pick_hit.h"
 
 namespace stillframe::nodes {
 
@@ -45,6 +47,14 @@ class RestParts {
   /// Adds the nodes to draw, in an order that does not depend on what came before.
   void list(std::vector<osg::Node*>& nodes) const;
 
+  /// What is hit of the entity in which slot, and where in the frame.
+  struct RestHit {
+    std::size_t slot = 0;
+    const char* primitive = "";  ///< "line", "triangles", "model", "text"
+    glm::dvec3 point_in_frame{0.0};
+  };
+  [[nodiscard]] std::optional<RestHit> entityAt(const scenegraph::PickHit& hit) const;
+
   [[nodiscard]] bool isEmpty() const noexcept { return entities_.empty(); }
   /// In the frame; invalid for nothing.
   [[nodiscard]] const osg::BoundingBoxd& box() const noexcept { return box_; }
@@ -56,10 +66,13 @@ class RestParts {
   [[nodiscard]] const std::optional<scenegraph::Status>& modelFailure() const noexcept { return model_failure_; }
 
  private:
+  /// Where the parts of each entity end in what is drawn together: a number of points or triangles, and the slot.
+  using Ends = std::vector<std::pair<std::size_t, std::size_t>>;
   struct Strokes {
     osg::ref_ptr<osg::MatrixTransform> node;
     std::unique_ptr<LineDrawable> lines;
     bool is_drawn = false;
+    Ends ends;
   };
   void makeLines();
   void makeTriangles();
@@ -71,6 +84,8 @@ class RestParts {
   std::map<std::size_t, std::shared_ptr<const scenegraph::SceneEntity>> entities_;
   std::array<Strokes, 2> strokes_;  // opaque, translucent
   std::array<std::unique_ptr<TriangleDrawable>, 2> surfaces_;
+  std::array<Ends, 2> surface_ends_;
+  std::vector<std::size_t> model_slots_;  // one a child of model_node_
   struct Texts {
     osg::ref_ptr<osg::Group> node;
     osg::BoundingBoxd box;

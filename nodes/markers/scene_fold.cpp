@@ -167,11 +167,15 @@ void SceneHistory::Fold::add(const SceneEntity& entity, const std::shared_ptr<co
   made->stamp = entity.stamp;
   made->log_time = log_time;
   made->is_frame_locked = entity.is_frame_locked;
+  made->metadata = entity.metadata;
   if (entity.lifetime_ns > 0 && log_time.ns < kNever - entity.lifetime_ns) {
     made->expiry = {log_time.ns + entity.lifetime_ns};
   }
   made->shapes = shapesOf(entity, batches_.size() < kMostCells);
   made->byte_size = sizeof(LiveEntity) + 3 * entity.id.size() + entity.frame_id.size() + 64;
+  for (const auto& [key, value] : entity.metadata) {
+    made->byte_size += 64 + key.size() + value.size();
+  }
   std::size_t points = 0;
   for (const auto& list : entity.points) {
     points += list.points.size();

@@ -27,6 +27,7 @@ struct LiveEntity {
   tf::TimePoint log_time;                                          ///< of its message
   tf::TimePoint expiry{std::numeric_limits<std::int64_t>::max()};  ///< gone from then on
   bool is_frame_locked = false;
+  std::vector<std::pair<std::string, std::string>> metadata;
   EntityShapes shapes;
   std::uint32_t primitives = 0;  ///< of every kind
   /// Lines, triangles, texts and models; nullptr without any.

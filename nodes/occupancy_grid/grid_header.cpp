@@ -68,6 +68,7 @@ std::expected<GridHeader, Status> checkGrid(const OccupancyGrid& grid) {
                                       " m: it must be a positive, finite length");
   }
   GridHeader header;
+  header.stamp = grid.stamp;
   header.frame_id = std::string(tf::stripLeadingSlashes(grid.frame_id));
   header.frame_from_grid = grid.origin;
   header.resolution_m = resolution_m;

@@ -7,11 +7,13 @@
 #include "scenegraph/objects/occupancy_grid.h"
 #include "scenegraph/status.h"
 #include "tf/rigid_transform.h"
+#include "tf/time.h"
 
 namespace stillframe::nodes {
 
 /// What a base grid says beside its cells, checked.
 struct GridHeader {
+  tf::TimePoint stamp;
   std::string frame_id;                ///< without leading slashes
   tf::RigidTransform frame_from_grid;  ///< unit rotation; the corner of cell (0, 0)
   double resolution_m = 1.0;

@@ -1,5 +1,9 @@
 #include "nodes/occupancy_grid/occupancy_grid_layer.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 namespace stillframe::nodes {
 
 using scenegraph::Status;
@@ -55,6 +59,45 @@ osg::BoundingBoxd OccupancyGridLayer::box() const {
   return header.cellCount() > 0 ? osg::BoundingBoxd(0.0, 0.0, 0.0, header.resolution_m * header.width,
                                                     header.resolution_m * header.height, 0.0)
                                 : osg::BoundingBoxd();
+}
+
+std::optional<scenegraph::Picked> OccupancyGridLayer::describeData(const scenegraph::PickHit& hit) const {
+  if (product_ == nullptr) {
+    return std::nullopt;
+  }
+  const GridHeader& header = product_->header;
+  // The grid is the plane z = 0 of its own frame.
+  const tf::RigidTransform& frame_from_grid = header.frame_from_grid;
+  const std::array<glm::dvec3, 3> plane{frame_from_grid.translation,
+                                        tf::transformPoint(frame_from_grid, {1.0, 0.0, 0.0}),
+                                        tf::transformPoint(frame_from_grid, {0.0, 1.0, 0.0})};
+  const glm::dvec3 in_frame = scenegraph::meetPlane(hit.ray_in_frame, plane).value_or(hit.point_in_frame);
+  const glm::dvec3 in_cells = tf::transformPoint(tf::inverse(frame_from_grid), in_frame) / header.resolution_m;
+  const double column = std::floor(in_cells.x);
+  const double row = std::floor(in_cells.y);
+  if (!(column >= 0.0 && column < header.width && row >= 0.0 && row < header.height)) {
+    return std::nullopt;
+  }
+  const auto x = static_cast<std::uint32_t>(column);
+  const auto y = static_cast<std::uint32_t>(row);
+  const glm::dvec3 centre_in_grid(header.resolution_m * (column + 0.5), header.resolution_m * (row + 0.5), 0.0);
+  scenegraph::Picked picked{.kind = "cell",
+                            .id = std::to_string(x) + "," + std::to_string(y),
+                            .point_in_frame = tf::transformPoint(frame_from_grid, centre_in_grid),
+                            .stamp = header.stamp,
+                            .fields = {},
+                            .radius_m = std::max(1.0, 4.0 * header.resolution_m)};
+  const int value = product_->state.cells.at(x, y);
+  picked.add("column", x);
+  picked.add("row", y);
+  picked.add("value", value);
+  picked.add("state", std::string(value == -1                 ? "unknown"
+                                  : value < -1 || value > 100 ? "invalid"
+                                  : value >= 65               ? "occupied"
+                                                              : "free or uncertain"));
+  picked.add("resolution_m", header.resolution_m);
+  picked.add("updates", product_->state.applied);
+  return picked;
 }
 
 Status OccupancyGridLayer::remark() const {

@@ -35,6 +35,7 @@ class OccupancyGridLayer final : public TopicLayer {
   void close() override;
   void clear() override;
   [[nodiscard]] std::optional<Anchor> load(const scenegraph::Tick& tick) override;
+  [[nodiscard]] std::optional<scenegraph::Picked> describeData(const scenegraph::PickHit& hit) const override;
   void draw(const Placement& fixed_from_data) override;
   [[nodiscard]] osg::BoundingBoxd box() const override;
   [[nodiscard]] const scenegraph::Status& sourceStatus() const override { return tracker_->status(); }

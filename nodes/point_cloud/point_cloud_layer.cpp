@@ -1,6 +1,7 @@
 #include "nodes/point_cloud/point_cloud_layer.h"
 
 #include "nodes/osg_math.h"
+#include "nodes/point_cloud/describe_point.h"
 #include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
@@ -45,6 +46,10 @@ void PointCloudLayer::open(const scenegraph::LayerContext& context) {
 void PointCloudLayer::close() {
   SampleLayer::close();
   geometry_ = nullptr;
+}
+
+std::optional<scenegraph::Picked> PointCloudLayer::describeData(const scenegraph::PickHit& hit) const {
+  return product() != nullptr ? describePoint(*product(), hit.vertex) : std::nullopt;
 }
 
 TopicLayer::Anchor PointCloudLayer::anchorOf(const CloudPoints& cloud) const {

@@ -43,6 +43,7 @@ class PointCloudLayer : public SampleLayer<CloudPoints, PointCloudSettings> {
   void open(const scenegraph::LayerContext& context) override;
   void close() override;
   void show() override;
+  [[nodiscard]] std::optional<scenegraph::Picked> describeData(const scenegraph::PickHit& hit) const override;
   [[nodiscard]] Anchor anchorOf(const CloudPoints& cloud) const override;
   void draw(const Placement& fixed_from_points) override;
   [[nodiscard]] osg::BoundingBoxd box() const override;

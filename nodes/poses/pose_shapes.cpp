@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -84,6 +85,43 @@ void PoseShapes::build(const PoseSet& shown, const PoseTrail* trail, const Poses
   if (settings.covariance && shown.source().covariance) {
     buildCovariance(shown, settings);
   }
+}
+
+std::optional<PoseShapes::PoseHit> PoseShapes::poseAt(const scenegraph::PickHit& hit, const PoseSet& shown,
+                                                      const PoseTrail* trail, const PosesSettings& settings) const {
+  const auto nearest = [](const PoseSet& poses, const glm::dvec3& point) {
+    std::size_t found = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < poses.source().poses.size(); ++i) {
+      const auto at = poses.point(i);
+      const double away = at ? glm::distance(*at, point) : least;
+      if (away < least) {
+        least = away;
+        found = i;
+      }
+    }
+    return found;
+  };
+  if (line_ && hit.isBeneath(*line_place_)) {
+    const auto segment = line_->segmentAt(hit);
+    return segment ? std::optional(PoseHit{trail != nullptr,
+                                           nearest(trail != nullptr ? trail->poses : shown, segment->point_in_frame),
+                                           "line"})
+                   : std::nullopt;
+  }
+  for (const auto& mesh : meshes_) {
+    if (!hit.isBeneath(mesh->node()) || hit.instance >= mesh->size()) {
+      continue;
+    }
+    const std::string& name = mesh->node().getName();
+    if (name == "fill") {
+      return PoseHit{false, nearest(shown, mesh->surfacePoint(hit)), name};
+    }
+    const bool is_shape = name == "poses" || name == "points";
+    return PoseHit{is_shape && trail != nullptr && settings.trail_shapes,
+                   is_shape ? static_cast<std::size_t>(mesh->at(hit.instance).id) : 0, is_shape ? "shape" : name};
+  }
+  return std::nullopt;
 }
 
 void PoseShapes::hang(const TriangleMesh& mesh, const char* name, const glm::dvec3& origin, const Copies& copies) {

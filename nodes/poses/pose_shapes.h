@@ -6,6 +6,7 @@
 #include <osg/BoundingBox>
 #include <osg/MatrixTransform>
 #include <osg/ref_ptr>
+#include <string>
 
 #include "nodes/lines/line_drawable.h"
 #include "nodes/poses/covariance.h"
@@ -36,6 +37,15 @@ class PoseShapes {
   /// Shapes at the poses of `shown`, or of the trail where the settings want it. Costs 64 bytes a copy.
   void build(const PoseSet& shown, const PoseTrail* trail, const PosesSettings& settings);
   void clear();
+
+  /// Which pose of those given to build() is hit, and where.
+  struct PoseHit {
+    bool is_of_trail = false;
+    std::size_t index = 0;
+    std::string part;  ///< "shape", "line", "fill", "covariance", "orientation"
+  };
+  [[nodiscard]] std::optional<PoseHit> poseAt(const scenegraph::PickHit& hit, const PoseSet& shown,
+                                              const PoseTrail* trail, const PosesSettings& settings) const;
 
   /// In the poses' frame; invalid when nothing is drawn.
   [[nodiscard]] const osg::BoundingBoxd& box() const noexcept { return box_; }

@@ -1,5 +1,6 @@
 #include "nodes/poses/poses_layer.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <utility>
@@ -195,6 +196,42 @@ const Status& PosesLayer::sourceStatus() const {
 }
 
 bool PosesLayer::isWorking() const { return SampleLayer::isWorking() || trails_->isPending(); }
+
+std::optional<scenegraph::Picked> PosesLayer::describeData(const scenegraph::PickHit& hit) const {
+  if (product() == nullptr) {
+    return std::nullopt;
+  }
+  const PoseTrail* const trail = product()->trail.get();
+  const auto found = shapes_->poseAt(hit, *product()->poses, trail, chosen());
+  if (!found) {
+    return std::nullopt;
+  }
+  const PoseSet& poses = found->is_of_trail ? trail->poses : *product()->poses;
+  const PosesInFrame& source = poses.source();
+  const auto point = found->index < source.poses.size() ? poses.point(found->index) : std::nullopt;
+  if (!point) {
+    return std::nullopt;
+  }
+  scenegraph::Picked picked{.kind = "pose",
+                            .id = std::to_string(found->index),
+                            .point_in_frame = *point,
+                            .stamp = found->index < source.stamps.size() ? source.stamps[found->index] : source.stamp,
+                            .fields = {},
+                            .radius_m = std::max(1.0, 2.0 * chosen().length_m)};
+  picked.add("part", found->part);
+  picked.add("of", source.poses.size());
+  picked.add("trail", found->is_of_trail);
+  picked.addPose("", source.poses[found->index]);
+  if (!source.child_frame_id.empty()) {
+    picked.add("child_frame_id", source.child_frame_id);
+  }
+  if (source.covariance) {
+    for (std::size_t i = 0; i < source.covariance->size(); ++i) {
+      picked.add("covariance[" + std::to_string(i) + "]", (*source.covariance)[i]);
+    }
+  }
+  return picked;
+}
 
 Status PosesLayer::remark() const {
   Remarks remarks;

@@ -45,6 +45,7 @@ class PosesLayer final : public SampleLayer<ShownPoses, PosesSettings> {
   void show() override;
   [[nodiscard]] Shown drawnOf(const Shown& loaded) override;
   [[nodiscard]] Anchor anchorOf(const ShownPoses& shown) const override;
+  [[nodiscard]] std::optional<scenegraph::Picked> describeData(const scenegraph::PickHit& hit) const override;
   void draw(const Placement& fixed_from_data) override;
   [[nodiscard]] osg::BoundingBoxd box() const override { return shapes_->box(); }
   [[nodiscard]] scenegraph::Status remark() const override;

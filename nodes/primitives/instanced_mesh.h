@@ -17,6 +17,7 @@
 
 #include "nodes/primitives/instance.h"
 #include "nodes/primitives/triangle_mesh.h"
+#include "scenegraph/pick/pick_hit.h"
 
 namespace stillframe::nodes {
 
@@ -55,6 +56,12 @@ class InstancedMesh {
   /// Call once after changes, before the next frame.
   void commit();
 
+  /// A copy as it was set; index < size().
+  [[nodiscard]] const Instance& at(std::size_t index) const;
+  /// Where the surface of a copy is hit, in the frame of the node's parent: by ray and triangle in double. Of a square
+  /// that faces the viewer its middle.
+  [[nodiscard]] glm::dvec3 surfacePoint(const scenegraph::PickHit& hit) const;
+
   /// Box of all copies relative to the origin, as of the last commit(); invalid without any.
   [[nodiscard]] const osg::BoundingBoxd& box() const noexcept { return box_; }
 
@@ -62,7 +69,6 @@ class InstancedMesh {
   static constexpr std::size_t kTexels = 4;
   static constexpr std::size_t kBlock = 32;  // copies that share a box
 
-  [[nodiscard]] const Instance& at(std::size_t index) const;
   void touch(std::size_t first, std::size_t last);
   void upload();
   void setCorners();

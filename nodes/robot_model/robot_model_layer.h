@@ -45,6 +45,8 @@ class RobotModelLayer final : public scenegraph::Layer {
   [[nodiscard]] std::string sourceFrame() const override;
   [[nodiscard]] bool isPending() const override;
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const override { return bounds_; }
+  /// A link, where its surface is hit.
+  [[nodiscard]] std::optional<scenegraph::Picked> describe(const scenegraph::PickHit& hit) const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
   std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;

@@ -62,6 +62,8 @@ class TfAxesLayer final : public scenegraph::Layer {
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const override { return bounds_; }
   /// Each frame by itself: the origin of a map projection may lie far from everything.
   [[nodiscard]] std::vector<scenegraph::Box> bulkInFixed() const override;
+  /// A frame, by its axes, its name or the line to its parent.
+  [[nodiscard]] std::optional<scenegraph::Picked> describe(const scenegraph::PickHit& hit) const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
   /// Refuses a frame_filter that is no regular expression.

@@ -1,6 +1,9 @@
 #include "nodes/voxel_grid/voxel_grid_layer.h"
 
+#include <algorithm>
+
 #include "nodes/osg_math.h"
+#include "nodes/points/record_fields.h"
 
 namespace stillframe::nodes {
 
@@ -188,6 +191,39 @@ void VoxelGridLayer::draw(const Placement& fixed_from_grid) {
   }
   state_.setColor(choice_->mode, value_map);
   state_.setAxisMap(axis_map);
+}
+
+std::optional<scenegraph::Picked> VoxelGridLayer::describeData(const scenegraph::PickHit& hit) const {
+  if (product() == nullptr || !choice_ || hit.instance >= listed_) {
+    return std::nullopt;
+  }
+  const VoxelBlock& block = *product();
+  const osg::UIntArray* const listed =
+      block.list(choice_->drawn_by, choice_->mode == VoxelColorMode::Rgb).values.words.get();
+  const bool is_listed = listed != nullptr && !listed->empty();
+  const std::size_t i = is_listed ? (*listed)[hit.instance] : hit.instance;
+  const glm::uvec3 count = block.count();
+  if (i >= block.voxels()) {
+    return std::nullopt;
+  }
+  const scenegraph::VoxelGrid& grid = block.source();
+  const std::size_t in_slice = std::size_t{count.x} * count.y;
+  const std::size_t column = i % count.x;
+  const std::size_t row = i / count.x % count.y;
+  const std::size_t slice = i / in_slice;
+  const glm::dvec3 cell(static_cast<double>(column), static_cast<double>(row), static_cast<double>(slice));
+  scenegraph::Picked picked{.kind = "voxel",
+                            .id = std::to_string(column) + "," + std::to_string(row) + "," + std::to_string(slice),
+                            .point_in_frame = tf::transformPoint(grid.origin, (cell + 0.5) * grid.cell_size_m),
+                            .stamp = grid.stamp,
+                            .fields = {},
+                            .radius_m = 4.0 * std::max({grid.cell_size_m.x, grid.cell_size_m.y, grid.cell_size_m.z})};
+  picked.add("column", column);
+  picked.add("row", row);
+  picked.add("slice", slice);
+  const std::size_t offset = slice * grid.slice_stride + row * grid.row_stride + column * grid.cell_stride;
+  addRecordFields(picked, block.cells().records.fields, recordAt(grid.data.bytes, offset, grid.cell_stride), false);
+  return picked;
 }
 
 Status VoxelGridLayer::remark() const {

@@ -51,6 +51,7 @@ class VoxelGridLayer final : public SampleLayer<VoxelBlock, VoxelGridSettings> {
   void show() override;
   [[nodiscard]] std::optional<Anchor> load(const scenegraph::Tick& tick) override;
   [[nodiscard]] Anchor anchorOf(const VoxelBlock& block) const override;
+  [[nodiscard]] std::optional<scenegraph::Picked> describeData(const scenegraph::PickHit& hit) const override;
   void draw(const Placement& fixed_from_grid) override;
   [[nodiscard]] osg::BoundingBoxd box() const override;
   [[nodiscard]] scenegraph::Status remark() const override;

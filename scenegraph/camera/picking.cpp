@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 #include <tuple>
 
@@ -24,6 +25,45 @@ std::optional<ScreenPoint> toScreen(const CameraView& view, const PictureSize& s
     return std::nullopt;
   }
   return ScreenPoint{position_px, depth};
+}
+
+std::optional<std::pair<glm::dvec2, glm::dvec2>> toScreen(const CameraView& view, const PictureSize& size,
+                                                          const glm::dvec3& from_in_fixed,
+                                                          const glm::dvec3& to_in_fixed) {
+  glm::dvec3 from(view.eye_from_fixed * glm::dvec4(from_in_fixed, 1.0));
+  glm::dvec3 to(view.eye_from_fixed * glm::dvec4(to_in_fixed, 1.0));
+  if (!view.is_orthographic) {
+    // A little farther than the near plane, where rounding cannot put it before.
+    const double near = view.near_m * (1.0 + 1e-9);
+    if (!(-from.z >= near || -to.z >= near)) {
+      return std::nullopt;
+    }
+    const auto cut = [&](glm::dvec3& end, const glm::dvec3& other) {
+      if (-end.z < near) {
+        end += (other - end) * ((near + end.z) / (end.z - other.z));
+      }
+    };
+    cut(from, to);
+    cut(to, from);
+  }
+  CameraView at_eye = view;
+  at_eye.eye_from_fixed = glm::dmat4(1.0);
+  const auto start = toScreen(at_eye, size, from);
+  const auto end = toScreen(at_eye, size, to);
+  return start && end ? std::optional(std::pair(start->position_px, end->position_px)) : std::nullopt;
+}
+
+std::optional<SightLine> sightLine(const CameraView& view, const PictureSize& size, const glm::dvec2& position_px) {
+  if (!(size.width_px > 0.0) || !(size.height_px > 0.0)) {
+    return std::nullopt;
+  }
+  const glm::dmat4 clip_from_eye = projection(view, size.width_px / size.height_px);
+  const glm::dmat4 fixed_from_eye = glm::inverse(view.eye_from_fixed);
+  const glm::dvec2 across((2.0 * position_px.x / size.width_px - 1.0) / clip_from_eye[0][0],
+                          (1.0 - 2.0 * position_px.y / size.height_px) / clip_from_eye[1][1]);
+  const glm::dvec4 origin(view.is_orthographic ? across : glm::dvec2(0.0), 0.0, 1.0);
+  const glm::dvec4 direction(view.is_orthographic ? glm::dvec2(0.0) : across, -1.0, 0.0);
+  return SightLine{glm::dvec3(fixed_from_eye * origin), glm::dvec3(fixed_from_eye * direction)};
 }
 
 std::vector<FramePick> pickFrames(const tf::TransformBuffer& buffer, const tf::Snapshot& fixed_from_frames,

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenegraph/camera/camera.h"
@@ -27,6 +28,21 @@ struct ScreenPoint {
 /// picture has no area.
 [[nodiscard]] std::optional<ScreenPoint> toScreen(const CameraView& view, const PictureSize& size,
                                                   const glm::dvec3& point_in_fixed);
+
+/// Where a straight line falls, as far as it is not before the near plane; it may reach beyond the picture. Nullopt
+/// when nothing of it is seen.
+[[nodiscard]] std::optional<std::pair<glm::dvec2, glm::dvec2>> toScreen(const CameraView& view, const PictureSize& size,
+                                                                        const glm::dvec3& from_in_fixed,
+                                                                        const glm::dvec3& to_in_fixed);
+
+/// Line of sight of a place in the picture, in the fixed frame.
+struct SightLine {
+  glm::dvec3 origin{0.0};
+  glm::dvec3 direction{0.0, 0.0, -1.0};  ///< such that a step of 1 along it is 1 m along the view axis
+};
+/// The inverse of toScreen(); orthographic lines begin in the plane of the eye. Nullopt when the picture has no area.
+[[nodiscard]] std::optional<SightLine> sightLine(const CameraView& view, const PictureSize& size,
+                                                 const glm::dvec2& position_px);
 
 /// A frame under the cursor.
 struct FramePick {

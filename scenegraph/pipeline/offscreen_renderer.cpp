@@ -122,4 +122,9 @@ std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const
   return picture;
 }
 
+std::vector<PickHit> OffscreenRenderer::pick(int x_px, int y_px, int reach_px) {
+  return pipeline_ != nullptr && context_->makeCurrent() ? pipeline_->pick(x_px, y_px, reach_px)
+                                                         : std::vector<PickHit>{};
+}
+
 }  // namespace stillframe::scenegraph

@@ -57,6 +57,9 @@ class OffscreenRenderer {
   /// Refuses "BadSize" (not positive) and "TooLarge" (beyond the driver's largest texture, kMaxPixels or kMaxBytes).
   std::expected<Picture, Status> render(osg::Group& root, const CameraView& view, const RenderOptions& options);
 
+  /// What the last picture shows at a pixel from its top left corner and near it (ViewPipeline::pick).
+  [[nodiscard]] std::vector<PickHit> pick(int x_px, int y_px, int reach_px = ViewPipeline::kPickReachPx);
+
   [[nodiscard]] const FrameStatistics& lastFrame() const noexcept { return statistics_; }
   [[nodiscard]] OffscreenContext& context() noexcept { return *context_; }
 

@@ -104,6 +104,7 @@ class PointCollector : public osg::NodeVisitor {
     collected.batches.push_back(batch);
     collected.arrays.emplace_back(vertices);
     collected.colors.push_back(colorsOf(geometry, uniforms));
+    collected.paths.push_back(getNodePath());
     collected.count += vertices->size();
   }
 

@@ -20,6 +20,7 @@ struct PointCollection {
   std::vector<PointBatch> batches;
   std::vector<osg::ref_ptr<const osg::Array>> arrays;  ///< their positions, kept alive
   std::vector<PointColors> colors;                     ///< theirs
+  std::vector<osg::NodePath> paths;                    ///< to their geometries, for as long as the graph stays
   std::size_t count = 0;
 };
 

@@ -103,4 +103,13 @@ PointProgress PointStage::draw(PointCollection points, int width_px, int height_
   return progress;
 }
 
+std::span<const std::uint64_t> PointStage::keys(PointCollection points, int width_px, int height_px) {
+  if (points.batches != batches_ || raster_.widthPx() != width_px || raster_.heightPx() != height_px) {
+    startAnew(points.batches, std::move(points.arrays), width_px, height_px);
+    raster_.draw(batches_);
+    passes_ = kPassesOfSample;
+  }
+  return raster_.keys();
+}
+
 }  // namespace stillframe::scenegraph

@@ -9,6 +9,7 @@
 #include <osg/Image>
 #include <osg/Matrixd>
 #include <osg/ref_ptr>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ class PointStage {
   /// Draws these points, as many as the time for it allows, and a few always. Without points there is no picture.
   PointProgress draw(PointCollection points, int width_px, int height_px,
                      double budget_ms = std::numeric_limits<double>::infinity());
+  /// Which point is seen at each pixel, bottom row first (PointKey): of the picture as far as it has been drawn; of
+  /// points that are others than those drawn last, the whole. Numbers count through the batches in their order.
+  [[nodiscard]] std::span<const std::uint64_t> keys(PointCollection points, int width_px, int height_px);
 
  private:
   void resize(int width_px, int height_px);

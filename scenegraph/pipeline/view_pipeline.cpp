@@ -14,6 +14,8 @@
 #include "scenegraph/osg_matrix.h"
 #include "scenegraph/pipeline/gl_context_info.h"
 #include "scenegraph/pipeline/gl_target.h"
+#include "scenegraph/pipeline/id_hits.h"
+#include "scenegraph/pipeline/id_pass.h"
 #include "scenegraph/pipeline/point_collection.h"
 #include "scenegraph/pipeline/stages.h"
 
@@ -47,7 +49,8 @@ struct ViewPipeline::Impl {
   osg::ref_ptr<osg::Group> content;         // the root, and the picture of the points
   std::unique_ptr<PointStage> point_stage;  // none before there are points for it
   std::optional<PointProgress> point_progress;
-  bool is_chain_new = false;  // setPostChain() needs no context, the next draw() has one
+  std::unique_ptr<IdPass> id_pass;  // none before something is picked
+  bool is_chain_new = false;        // setPostChain() needs no context, the next draw() has one
 
   [[nodiscard]] unsigned contextId() const { return window->getState()->getContextID(); }
   void makeViewer();
@@ -275,9 +278,51 @@ int ViewPipeline::samples() const noexcept { return impl_->stages ? impl_->stage
 
 const glm::dmat4& ViewPipeline::projectionMatrix() const noexcept { return impl_->projection_matrix; }
 
+std::vector<PickHit> ViewPipeline::pick(int x_px, int y_px, int reach_px) {
+  Impl& impl = *impl_;
+  const bool is_inside = x_px >= 0 && y_px >= 0 && x_px < impl.width_px && y_px < impl.height_px;
+  if (!impl.stages || impl.passes.empty() || !is_inside) {
+    return {};
+  }
+  const osg::Matrixd eye_from_fixed = toOsg(impl.view.eye_from_fixed);
+  const osg::Matrixd clip_from_eye = toOsg(impl.projection_matrix);
+  PointCollection points;
+  std::optional<IdPass::CpuPoints> cpu_points;
+  if (impl.point_progress) {
+    points = collectPoints(*impl.root, eye_from_fixed, clip_from_eye, impl.height_px);
+    cpu_points.emplace(impl.point_stage->keys(points, impl.width_px, impl.height_px), points);
+  }
+  impl.adoptGlState();
+  if (BufferPatches* const patches = BufferPatches::find(*impl.root)) {
+    patches->upload(impl.contextId());
+  }
+  if (impl.id_pass == nullptr) {
+    impl.id_pass = std::make_unique<IdPass>();
+  }
+  osg::RenderInfo info(impl.window->getState(), impl.viewer);
+  const int row_from_below = impl.height_px - 1 - y_px;
+  const auto samples = impl.id_pass->draw(*impl.root,
+                                          {.eye_from_fixed = eye_from_fixed,
+                                           .clip_from_eye = clip_from_eye,
+                                           .width_px = impl.width_px,
+                                           .height_px = impl.height_px,
+                                           .x_px = x_px,
+                                           .y_px = row_from_below,
+                                           .reach_px = reach_px},
+                                          info, cpu_points);
+  const auto ordered = inOrderOfMeaning(samples.value_or(std::vector<IdSample>{}), impl.id_pass->drawables());
+  return toHits(ordered, impl.id_pass->drawables(), impl.view, impl.width_px, impl.height_px, x_px, y_px);
+}
+
+bool ViewPipeline::hasPickTarget() const noexcept { return impl_->id_pass != nullptr; }
+
 void ViewPipeline::releaseGl() {
   if (impl_->viewer == nullptr) {
     return;
+  }
+  if (impl_->id_pass != nullptr) {
+    impl_->id_pass->release(*impl_->window->getState());
+    impl_->id_pass.reset();
   }
   impl_->content->releaseGLObjects(impl_->window->getState());
   impl_->dropStages();

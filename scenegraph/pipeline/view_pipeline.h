@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scenegraph/camera/camera.h"
+#include "scenegraph/pick/pick_hit.h"
 #include "scenegraph/pipeline/point_stage.h"
 #include "scenegraph/pipeline/post_chain.h"
 #include "scenegraph/settings.h"
@@ -72,6 +73,15 @@ class ViewPipeline {
   [[nodiscard]] int samples() const noexcept;
   /// The projection of the last render, for picking and for metres from depth.
   [[nodiscard]] const glm::dmat4& projectionMatrix() const noexcept;
+
+  /// What the picture of the last render shows at a pixel, counted from the top left corner, and within `reach_px` of
+  /// it, the best guess at what is meant first (inOrderOfMeaning). Draws those few pixels of the graph as it is now
+  /// once more, into a target of its own that is made with the first call; the picture stays. Empty where there is
+  /// nothing, outside of the picture, and before the first render. Leaves another framebuffer bound.
+  [[nodiscard]] std::vector<PickHit> pick(int x_px, int y_px, int reach_px = kPickReachPx);
+  static constexpr int kPickReachPx = 8;
+  /// Whether pick() has made its target yet.
+  [[nodiscard]] bool hasPickTarget() const noexcept;
 
   /// Frees every GL object of this context id, those of the scene graph too. Idempotent; the next render starts anew
   /// (so a widget calls it when its context goes, and draws on in the next).

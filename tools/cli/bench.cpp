@@ -6,6 +6,7 @@
 #include <random>
 #include <thread>
 
+#include "scenegraph/pick/scene_pick.h"
 #include "scenegraph/pipeline/offscreen_renderer.h"
 #include "tools/cli/bench_results.h"
 #include "tools/cli/commands.h"
@@ -101,8 +102,20 @@ Result<void> benchRecording(const std::string& file, std::vector<BenchResult>& r
   }
   addDistribution(results, "frame, 1280 x 720", frames_ms);
 
-  const auto range = *session->scene().dataset().timeRange();
   std::mt19937_64 random(7);
+  const auto pick = [&] {
+    const auto x = static_cast<int>(random() % static_cast<unsigned>(options.size.width_px));
+    const auto y = static_cast<int>(random() % static_cast<unsigned>(options.size.height_px));
+    (void)scenegraph::describeHits(session->scene(), renderer->pick(x, y));
+  };
+  results.push_back({"first pick, which makes its shaders", 1e3 * secondsOf(pick), "ms"});
+  std::vector<double> picks_ms;
+  for (int i = 0; i < 200; ++i) {
+    picks_ms.push_back(1e3 * secondsOf(pick));
+  }
+  addDistribution(results, "pick at a random pixel", picks_ms, 5.0);
+
+  const auto range = *session->scene().dataset().timeRange();
   std::vector<tf::TimePoint> times;
   for (int i = 0; i < 100; ++i) {
     const double place = static_cast<double>(random() >> 11U) * 0x1.0p-53;

@@ -10,7 +10,7 @@ enum class ExitCode : int {
   Ok = 0,
   Failure = 1,       ///< a file cannot be read or written, a picture cannot be made
   Usage = 2,         ///< the command line is wrong: an option, a layer, a frame, a setting
-  LookupFailed = 3,  ///< `tf`: there is no such transform
+  LookupFailed = 3,  ///< `tf`: there is no such transform; `pick`: nothing is there
 };
 
 /// Why a command ends early: printed as one line, "stillframe: <message>".

@@ -18,6 +18,7 @@ using Command = std::function<Result<void>()>;
 [[nodiscard]] Command addInfoCommand(CLI::App& app);
 [[nodiscard]] Command addTfCommand(CLI::App& app);
 [[nodiscard]] Command addRenderCommand(CLI::App& app);
+[[nodiscard]] Command addPickCommand(CLI::App& app);
 [[nodiscard]] Command addExportCommand(CLI::App& app);
 [[nodiscard]] Command addSampleCommand(CLI::App& app);
 [[nodiscard]] Command addBenchCommand(CLI::App& app);

@@ -31,6 +31,7 @@ int run(int argc, char** argv) {
   };
   add("view", "Open recordings in the inspector window", addViewCommand);
   add("render", "Draw one instant to a PNG or EXR file, without a display", addRenderCommand);
+  add("pick", "Say what lies at a pixel of what render shows, and measure between two", addPickCommand);
   add("info", "List topics, frames and problems of a recording", addInfoCommand);
   add("tf", "Look up one transform", addTfCommand);
   add("export", "Write what render shows as an OpenSceneGraph file", addExportCommand);

@@ -22,7 +22,7 @@ struct Binding {
 };
 
 using enum CameraCommand;
-const std::array<Binding, 36> kBindings = {{
+const std::array<Binding, 37> kBindings = {{
     {Qt::Key_Home, kNone, Home, "Home", "default view"},
     {Qt::Key_F, kNone, Frame, "F", "frame the selection, or everything"},
     {Qt::Key_F, kShift, FrameAll, "Shift+F", "frame everything"},
@@ -55,6 +55,7 @@ const std::array<Binding, 36> kBindings = {{
     {Qt::Key_BracketLeft, kNone, PaceDown, "[  ], Shift+wheel", "slower, faster (fly)"},
     {Qt::Key_BracketRight, kNone, PaceUp, "", ""},
     {Qt::Key_B, kNone, SaveView, "B", "save this view"},
+    {Qt::Key_Delete, kNone, ClearPicks, "Delete", "nothing picked, nothing measured"},
     {Qt::Key_Question, kNone, Help, "?, F1", "this help; Esc closes it"},
     {Qt::Key_Question, kShift, Help, "", ""},
     {Qt::Key_F1, kNone, Help, "", ""},
@@ -88,6 +89,7 @@ std::vector<KeyHelp> CameraKeys::help() {
       {text("left drag"), text("turn round what is looked at; fly: look about")},
       {text("middle drag, Shift+left drag"), text("pan")},
       {text("wheel, right drag"), text("zoom; with Ctrl: to the cursor")},
+      {text("click, Shift+click"), text("pick what is there; measure from it to here")},
       {text("click a frame in the list"), text("look at it")},
       {text("W A S D, Q E"), text("walk; down and up. Shift: faster")},
   };

@@ -41,6 +41,7 @@ enum class CameraCommand : std::uint8_t {
   PaceUp,  ///< of a flying camera
   PaceDown,
   SaveView,
+  ClearPicks,
   Help,
   CloseHelp,
 };

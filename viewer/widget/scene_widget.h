@@ -11,11 +11,13 @@
 
 #include "scenegraph/camera/view_camera.h"
 #include "scenegraph/passes/view_effects.h"
+#include "scenegraph/pick/scene_pick.h"
 #include "scenegraph/pipeline/gl_debug.h"
 #include "scenegraph/pipeline/view_pipeline.h"
 #include "scenegraph/scene.h"
 #include "viewer/widget/camera_gestures.h"
 #include "viewer/widget/camera_keys.h"
+#include "viewer/widget/selection.h"
 #include "viewer/widget/update_gate.h"
 
 class QLabel;
@@ -23,13 +25,8 @@ class QLabel;
 namespace stillframe::viewer {
 
 class HelpOverlay;
-
-/// What the user has picked out, to be framed by F: a ball round a point of a frame.
-struct Selection {
-  std::string frame;
-  glm::dvec3 point_in_frame{0.0, 0.0, 0.0};
-  double radius_m = 1.0;
-};
+class HoverLabel;
+class ViewPicks;
 
 /// The 3D view: one Scene, one camera, one pipeline in the widget's own context. GUI thread.
 ///
@@ -75,6 +72,12 @@ class SceneWidget : public QOpenGLWidget {
 
   void setSelection(const std::optional<Selection>& selection) { selection_ = selection; }
   [[nodiscard]] const std::optional<Selection>& selection() const noexcept { return selection_; }
+
+  /// What is drawn at a place of the widget, and near it, in the last frame. Draws no frame; a few milliseconds at
+  /// most.
+  std::expected<scenegraph::PickResult, scenegraph::PickError> pick(QPointF position);
+  /// What clicks have picked and measured; what is picked is the selection.
+  [[nodiscard]] ViewPicks& picks() noexcept { return *picks_; }
 
   [[nodiscard]] const std::vector<scenegraph::SavedView>& savedViews() const noexcept { return saved_views_; }
   void setSavedViews(std::vector<scenegraph::SavedView> views);
@@ -149,11 +152,16 @@ class SceneWidget : public QOpenGLWidget {
   [[nodiscard]] scenegraph::Follow::Pose displayPose() const;
   [[nodiscard]] double now() const { return static_cast<double>(clock_.nsecsElapsed()) * 1e-9; }
   void hover(QPointF position);
+  void hoverThing();
+  void click(QPointF position, bool measures);
+  void onPicksChanged();
+  void placePicks();
   void showProblem(const QString& text);
   void showProgress();
   [[nodiscard]] double aspect() const;
 
   UpdateGate gate_;
+  UpdateGate hover_gate_;
   scenegraph::GlDebugLog debug_log_;
   std::size_t gl_messages_ = 0;      // of contexts that are gone
   std::size_t logged_messages_ = 0;  // of debug_log_ that went to glLog
@@ -180,10 +188,13 @@ class SceneWidget : public QOpenGLWidget {
   std::uint64_t frames_drawn_ = 0;
   QMetaObject::Connection context_watch_;
   QLabel* message_ = nullptr;
-  QLabel* hover_label_ = nullptr;
+  HoverLabel* hover_label_ = nullptr;
   QLabel* progress_label_ = nullptr;
   HelpOverlay* help_ = nullptr;
+  ViewPicks* picks_ = nullptr;
   QString hovered_frame_;
+  std::optional<QPointF> hovered_;  // the cursor over the view
+  QPointF pressed_;
 };
 
 }  // namespace stillframe::viewer

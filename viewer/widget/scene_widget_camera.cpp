@@ -1,9 +1,9 @@
 // The camera of SceneWidget: what it looks at, what it follows, where it glides.
-#include <QLabel>
 #include <algorithm>
 #include <utility>
 
 #include "scenegraph/osg_box.h"
+#include "viewer/pick/hover_label.h"
 #include "viewer/widget/scene_widget.h"
 
 namespace stillframe::viewer {

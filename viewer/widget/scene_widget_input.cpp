@@ -3,9 +3,10 @@
 #include <QLabel>
 #include <QMouseEvent>
 #include <QWheelEvent>
-#include <algorithm>
+#include <cmath>
 
-#include "scenegraph/camera/picking.h"
+#include "viewer/pick/hover_label.h"
+#include "viewer/pick/view_picks.h"
 #include "viewer/widget/help_overlay.h"
 #include "viewer/widget/scene_widget.h"
 
@@ -13,10 +14,7 @@ namespace stillframe::viewer {
 namespace {
 
 constexpr double kWheelNotch = 120.0;  // eighths of a degree, as QWheelEvent counts
-constexpr double kHoverReach = 24.0;   // device-independent pixels, as the next
-constexpr int kHoverOffset = 14;
-constexpr double kSamePlace = 4.0;
-constexpr int kMostHovered = 8;  // names in the label
+constexpr double kStillPx = 3.0;       // device-independent pixels; farther is a drag
 
 }  // namespace
 
@@ -35,6 +33,9 @@ void SceneWidget::showEvent(QShowEvent* event) {
 
 void SceneWidget::mousePressEvent(QMouseEvent* event) {
   gestures_.press(event->button(), event->modifiers(), event->position());
+  pressed_ = event->position();
+  hovered_.reset();
+  hover_label_->clearAll();
 }
 
 void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
@@ -45,7 +46,13 @@ void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
   }
 }
 
-void SceneWidget::mouseReleaseEvent(QMouseEvent* event) { gestures_.release(event->button()); }
+void SceneWidget::mouseReleaseEvent(QMouseEvent* event) {
+  gestures_.release(event->button());
+  const QPointF moved = event->position() - pressed_;
+  if (event->button() == Qt::LeftButton && std::hypot(moved.x(), moved.y()) <= kStillPx) {
+    click(event->position(), event->modifiers().testFlag(Qt::ShiftModifier));
+  }
+}
 
 void SceneWidget::mouseDoubleClickEvent(QMouseEvent* event) {
   // Means nothing of its own: the second press drags like the first.
@@ -125,6 +132,9 @@ bool SceneWidget::obey(CameraCommand command) {
       break;
     case SaveView:
       saveView();
+      break;
+    case ClearPicks:
+      picks_->clear();
       break;
     case Help:
       toggleHelp();
@@ -209,42 +219,9 @@ bool SceneWidget::steer(CameraCommand command) {
   return true;
 }
 
-void SceneWidget::hover(QPointF position) {
-  if (scene_ == nullptr || !is_context_usable_) {
-    return;
-  }
-  const auto picks = scenegraph::pickFrames(scene_->frames().buffer(), scene_->frames().snapshot(), shownView(),
-                                            {static_cast<double>(width()), static_cast<double>(height())},
-                                            {position.x(), position.y()}, kHoverReach, kMostHovered + 1);
-  const QString frame = picks.empty() ? QString() : QString::fromStdString(picks.front().frame);
-  // Frames whose origins fall on each other are all named, one below the other.
-  QStringList names;
-  for (const scenegraph::FramePick& pick : picks) {
-    if (pick.distance_px - picks.front().distance_px < kSamePlace) {
-      names << (names.size() < kMostHovered ? QString::fromStdString(pick.frame) : tr("..."));
-    }
-  }
-  if (frame.isEmpty()) {
-    hover_label_->hide();
-  } else {
-    hover_label_->setText(names.join(QLatin1Char('\n')));
-    hover_label_->adjustSize();
-    // Beside the cursor, on the side where there is room.
-    const int right = qRound(position.x()) + kHoverOffset;
-    const int left = qRound(position.x()) - kHoverOffset - hover_label_->width();
-    const int below = qRound(position.y()) + kHoverOffset;
-    hover_label_->move(right + hover_label_->width() <= width() ? right : std::max(0, left),
-                       std::min(below, std::max(0, height() - hover_label_->height())));
-    hover_label_->show();
-  }
-  if (frame != hovered_frame_) {
-    hovered_frame_ = frame;
-    Q_EMIT frameHovered(frame);
-  }
-}
-
 void SceneWidget::leaveEvent(QEvent* event) {
-  hover_label_->hide();
+  hover_label_->clearAll();
+  hovered_.reset();
   hovered_frame_.clear();
   Q_EMIT frameHovered({});
   QOpenGLWidget::leaveEvent(event);

@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "viewer/frames/frame_tree.h"
+#include "viewer/pick/inspect_dock.h"
 #include "viewer/time/time_bar.h"
 #include "viewer/widget/scene_widget.h"
 #include "viewer/window/message_bar.h"
@@ -74,6 +75,8 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   dock->setWidget(frame_tree_);
   addDockWidget(Qt::RightDockWidgetArea, dock);
   resizeDocks({dock}, {kFrameTreeWidth}, Qt::Horizontal);
+
+  inspect_ = new InspectDock(*this);
 
   progress_->setObjectName(QStringLiteral("progress"));
   progress_->setRange(0, kProgressSteps);
@@ -137,6 +140,7 @@ void InspectorWindow::connectFrames() {
 void InspectorWindow::setActiveView(ViewPanel& panel) {
   active_view_ = &panel;
   frame_tree_->setHiddenFrames(panel.hiddenFrames());
+  inspect_->setView(panel.view());
 }
 
 InspectorWindow::~InspectorWindow() {
@@ -172,6 +176,7 @@ void InspectorWindow::buildMenus() {
           [this] { addView(views_.empty() ? nullptr : views_.back(), Qt::Vertical); });
   view->addSeparator();
   view->addAction(findChild<QDockWidget*>(QStringLiteral("framesDock"))->toggleViewAction());
+  view->addAction(inspect_->toggleViewAction());
 }
 
 void InspectorWindow::buildShortcuts() {
@@ -199,6 +204,7 @@ ViewPanel& InspectorWindow::addView(ViewPanel* like, Qt::Orientation orientation
   if (active_view_ == nullptr) {
     active_view_ = panel;
   }
+  inspect_->watch(panel->view());
   connect(&panel->view(), &SceneWidget::sceneUpdated, this, [this, panel] {
     if (panel == active_view_) {
       frame_tree_->setHiddenFrames(panel->hiddenFrames());

@@ -18,6 +18,7 @@ class QSplitter;
 namespace stillframe::viewer {
 
 class FrameTree;
+class InspectDock;
 class MessageBar;
 class TimeBar;
 
@@ -43,6 +44,7 @@ class InspectorWindow : public QMainWindow {
   [[nodiscard]] ViewPanel& activeView() noexcept { return *active_view_; }
   [[nodiscard]] TimeBar& timeBar() noexcept { return *time_bar_; }
   [[nodiscard]] FrameTree& frameTree() noexcept { return *frame_tree_; }
+  [[nodiscard]] InspectDock& inspect() noexcept { return *inspect_; }
   [[nodiscard]] MessageBar& messageBar() noexcept { return *messages_; }
   [[nodiscard]] const std::shared_ptr<scenegraph::Dataset>& dataset() const noexcept { return dataset_; }
   [[nodiscard]] bool isLoading() const noexcept { return is_loading_; }
@@ -86,6 +88,7 @@ class InspectorWindow : public QMainWindow {
   QSplitter* view_splitter_ = nullptr;
   TimeBar* time_bar_ = nullptr;
   FrameTree* frame_tree_ = nullptr;
+  InspectDock* inspect_ = nullptr;
   QProgressBar* progress_ = nullptr;
 };
 

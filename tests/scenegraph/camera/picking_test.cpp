@@ -102,5 +102,50 @@ TEST_F(PickFrames, PicksNothingInAPictureWithoutArea) {
   EXPECT_FALSE(at(kNan, 0));
 }
 
+TEST(SightLine, GoesThroughWhatFallsOnItsPixelWhateverTheCamera) {
+  test::Random random(3);
+  for (const double offset : {0.0, 6.4e6}) {
+    for (const bool is_orthographic : {false, true}) {
+      const glm::dvec3 eye(offset + 3.0, -offset, 5.0 - offset);
+      const CameraView view{.eye_from_fixed = lookAt(eye, eye + glm::dvec3(-3, 2, -4), {0, 0, 1}),
+                            .is_orthographic = is_orthographic,
+                            .vertical_extent_m = 8.0};
+      for (int i = 0; i < 50; ++i) {
+        const glm::dvec2 pixel(random.number(0, 1280), random.number(0, 720));
+        const auto line = sightLine(view, kSize, pixel);
+        ASSERT_TRUE(line);
+        const double metres = random.number(0.1, 100.0);
+        const auto back = toScreen(view, kSize, line->origin + metres * line->direction);
+        ASSERT_TRUE(back);
+        EXPECT_NEAR(back->position_px.x, pixel.x, 1e-4);
+        EXPECT_NEAR(back->position_px.y, pixel.y, 1e-4);
+        EXPECT_NEAR(back->depth_m, metres, 1e-7);
+      }
+    }
+  }
+  EXPECT_FALSE(sightLine({}, {0.0, 720.0}, {1, 1}));
+}
+
+TEST(LineOnScreen, IsCutAtTheNearPlaneAndGoneBehindTheEye) {
+  const CameraView view{.eye_from_fixed = lookAt({0, 0, 0}, {0, 1, 0}, {0, 0, 1}), .near_m = 0.1};
+  const auto whole = toScreen(view, kSize, {-1, 10, 0}, {1, 10, 0});
+  ASSERT_TRUE(whole);
+  EXPECT_NEAR(whole->first.x + whole->second.x, 1280.0, 1e-9);
+  EXPECT_NEAR(whole->first.y, 360.0, 1e-9);
+  for (const bool is_turned : {false, true}) {
+    const glm::dvec3 before(0, 10, 0);
+    const glm::dvec3 behind(2, -10, 0);
+    const auto cut = is_turned ? toScreen(view, kSize, behind, before) : toScreen(view, kSize, before, behind);
+    ASSERT_TRUE(cut);
+    const glm::dvec2 seen = is_turned ? cut->second : cut->first;
+    const glm::dvec2 end = is_turned ? cut->first : cut->second;
+    EXPECT_NEAR(seen.x, 640.0, 1e-9);
+    EXPECT_GT(end.x, 640.0) << "to the side where it passes the eye";
+  }
+  EXPECT_FALSE(toScreen(view, kSize, {0, -1, 0}, {1, -5, 0}));
+  EXPECT_FALSE(toScreen(view, kSize, {0, 0, 0}, {0, 0, 0}));
+  EXPECT_FALSE(toScreen(view, kSize, {kNan, 1, 0}, {0, 2, 0}));
+}
+
 }  // namespace
 }  // namespace stillframe::scenegraph

@@ -1,0 +1,65 @@
+// What RobotModelLayer says of a link that is picked.
+#include <algorithm>
+
+#include "nodes/robot_model/robot_model_layer.h"
+
+namespace stillframe::nodes {
+namespace {
+
+const char* shapeName(RobotShapeKind kind) {
+  switch (kind) {
+    case RobotShapeKind::Box:
+      return "box";
+    case RobotShapeKind::Cylinder:
+      return "cylinder";
+    case RobotShapeKind::Sphere:
+      return "sphere";
+    case RobotShapeKind::Capsule:
+      return "capsule";
+    case RobotShapeKind::Mesh:
+      break;
+  }
+  return "mesh";
+}
+
+}  // namespace
+
+std::optional<scenegraph::Picked> RobotModelLayer::describe(const scenegraph::PickHit& hit) const {
+  const auto found = std::ranges::find_if(
+      nodes_, [&](const LinkNode& link) { return link.anchor == hit.frame && hit.isBeneath(*link.node); });
+  if (scene_ == nullptr || found == nodes_.end()) {
+    return std::nullopt;
+  }
+  const RobotLink& link = scene_->robot().links[static_cast<std::size_t>(found - nodes_.begin())];
+  scenegraph::Picked picked{.kind = "link",
+                            .id = link.name,
+                            .point_in_frame = scenegraph::surfacePoint(hit),
+                            .stamp = std::nullopt,
+                            .fields = {},
+                            .radius_m = 1.0};
+  picked.add("robot", scene_->robot().name);
+  picked.add("frame", found->frame);
+  picked.add("placed_by", std::string(found->frame == hit.frame ? "transforms" : "joints, from " + hit.frame));
+  if (link.parent_joint >= 0) {
+    picked.add("joint", scene_->robot().joints[static_cast<std::size_t>(link.parent_joint)].name);
+  }
+  // The nodes of its shapes come in the order of the description, those seen before those that collide.
+  const osg::Node* const piece = hit.childOf(*found->node);
+  const std::size_t visuals = settings_.visual ? link.visuals.size() : 0;
+  for (unsigned i = 0; i < found->node->getNumChildren(); ++i) {
+    const bool is_visual = i < visuals;
+    const auto& shapes = is_visual ? link.visuals : link.collisions;
+    const std::size_t number = is_visual ? i : i - visuals;
+    if (found->node->getChild(i) == piece && number < shapes.size()) {
+      picked.add("part", std::string(is_visual ? "visual" : "collision"));
+      picked.add("shape", std::string(shapeName(shapes[number].kind)));
+      if (!shapes[number].mesh_uri.empty()) {
+        picked.add("mesh", shapes[number].mesh_uri);
+      }
+    }
+  }
+  picked.add("triangle", hit.primitive);
+  return picked;
+}
+
+}  // namespace stillframe::nodes

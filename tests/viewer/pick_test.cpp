@@ -1,0 +1,195 @@
+// Hovering, clicking and measuring in a view, and the panel that says what was picked.
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QClipboard>
+#include <QMouseEvent>
+#include <QTest>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "tests/viewer/viewer_support.h"
+#include "viewer/pick/hover_label.h"
+#include "viewer/pick/inspect_panel.h"
+#include "viewer/pick/view_picks.h"
+#include "viewer/widget/scene_widget.h"
+
+namespace stillframe::viewer {
+namespace {
+
+using namespace tf::literals;
+using scenegraph::PickError;
+using test::settle;
+using tf::TimePoint;
+
+constexpr scenegraph::PictureSize kSize{400.0, 300.0};
+
+class WidgetPickTest : public testing::Test {
+ protected:
+  WidgetPickTest() {
+    widget_.resize(400, 300);
+    widget_.setSmoothMoves(false);
+    widget_.setDataset(dataset_, *executor_);
+    widget_.scene()->addDefaultLayers();
+    widget_.scene()->findLayer("tf")->layer->setVisible(false);
+    widget_.setTime(TimePoint{2_s});
+    widget_.show();
+    if (!QTest::qWaitForWindowExposed(&widget_)) {
+      ADD_FAILURE() << "no window";
+    }
+    settle();
+  }
+  void TearDown() override { EXPECT_EQ(widget_.glMessages(), 0U) << "OpenGL debug output must be silent"; }
+
+  /// Where a point of the cloud in "lidar" is in the view; the points lie 5 cm apart, from -1 to 1.
+  QPointF at(double x, double y) {
+    const auto pose = widget_.scene()->frames().fixedFromFrame("lidar");
+    const auto on = scenegraph::toScreen(widget_.shownView(), kSize, tf::transformPoint(*pose, {x, y, 0.0}));
+    return {on->position_px.x, on->position_px.y};
+  }
+  void click(QPointF place, Qt::KeyboardModifiers modifiers = {}) {
+    QTest::mouseClick(&widget_, Qt::LeftButton, modifiers, place.toPoint());
+    settle();
+  }
+  void move(QPointF place) {
+    QTest::mouseMove(&widget_, place.toPoint());
+    QMouseEvent event(QEvent::MouseMove, place, widget_.mapToGlobal(place), Qt::NoButton, {}, {});
+    QApplication::sendEvent(&widget_, &event);
+    settle();
+  }
+  const std::optional<scenegraph::PickResult>& selected() { return widget_.picks().selected(); }
+
+  std::shared_ptr<scenegraph::Dataset> dataset_ = test::makeRobotDataset();
+  std::unique_ptr<scenegraph::Executor> executor_ = scenegraph::makeSynchronousExecutor();
+  SceneWidget widget_;
+};
+
+TEST_F(WidgetPickTest, ClickSelectsThePointAndFFramesIt) {
+  click(at(0.5, -0.25));
+  ASSERT_TRUE(selected());
+  EXPECT_EQ(selected()->topic, "/points");
+  EXPECT_EQ(selected()->frame, "lidar");
+  EXPECT_LT(glm::distance(selected()->picked.point_in_frame, glm::dvec3(0.5, -0.25, 0.0)), 0.2);
+  ASSERT_TRUE(widget_.selection());
+  EXPECT_EQ(widget_.selection()->frame, "lidar");
+  EXPECT_EQ(widget_.selection()->point_in_frame, selected()->picked.point_in_frame);
+  QTest::keyClick(&widget_, Qt::Key_F);
+  const auto pose = widget_.scene()->frames().fixedFromFrame("lidar");
+  const glm::dvec3 point_in_fixed = tf::transformPoint(*pose, selected()->picked.point_in_frame);
+  EXPECT_LT(glm::distance(widget_.camera().sight().focal_point, point_in_fixed), 1e-6);
+  settle();
+  ASSERT_TRUE(widget_.picks().ring());
+  EXPECT_LT(std::abs(widget_.picks().ring()->x() - 200.0), 1.0);
+  click({3, 3});
+  EXPECT_FALSE(selected()) << "a click on nothing deselects";
+  EXPECT_FALSE(widget_.selection());
+}
+
+TEST_F(WidgetPickTest, HoverSaysWhatIsThereAndDrawsNoFrame) {
+  auto* const label = widget_.findChild<HoverLabel*>();
+  ASSERT_NE(label, nullptr);
+  move(at(0.0, 0.0));
+  EXPECT_TRUE(label->thing().startsWith(QStringLiteral("/points  point"))) << label->thing().toStdString();
+  const auto frames = widget_.framesDrawn();
+  for (int i = 0; i < 20; ++i) {
+    move(at(0.02 * i - 0.2, 0.1));
+  }
+  EXPECT_EQ(widget_.framesDrawn(), frames);
+  move({3, 3});
+  EXPECT_TRUE(label->thing().isEmpty());
+  EXPECT_TRUE(label->isHidden());
+}
+
+TEST_F(WidgetPickTest, ADragPicksNothing) {
+  QTest::mousePress(&widget_, Qt::LeftButton, {}, at(0, 0).toPoint());
+  QTest::mouseMove(&widget_, at(0, 0).toPoint() + QPoint(30, 10));
+  QTest::mouseRelease(&widget_, Qt::LeftButton, {}, at(0, 0).toPoint() + QPoint(30, 10));
+  settle();
+  EXPECT_FALSE(selected());
+}
+
+TEST_F(WidgetPickTest, ShiftClickMeasuresAndTheLineGoesWithItsFrames) {
+  click(at(-0.5, 0.0));
+  ASSERT_TRUE(selected());
+  const glm::dvec3 from = selected()->picked.point_in_frame;
+  click(at(0.5, 0.5), Qt::ShiftModifier);
+  ASSERT_TRUE(selected());
+  const glm::dvec3 to = selected()->picked.point_in_frame;
+  ASSERT_EQ(widget_.picks().measured().size(), 1U);
+  const auto length = ViewPicks::lengthOf(*widget_.scene(), widget_.picks().measured().front());
+  ASSERT_TRUE(length);
+  EXPECT_NEAR(length->length_m, glm::distance(from, to), 1e-9);
+  EXPECT_NEAR(length->delta_in_fixed.x, to.x - from.x, 1e-9);
+  ASSERT_EQ(widget_.picks().lines().size(), 1U);
+  const QLineF before = widget_.picks().lines().front();
+  widget_.setTime(TimePoint{3_s});  // base_link goes on by a metre
+  settle();
+  ASSERT_EQ(widget_.picks().lines().size(), 1U);
+  EXPECT_NE(widget_.picks().lines().front(), before);
+  click({3, 3}, Qt::ShiftModifier);
+  EXPECT_EQ(widget_.picks().measured().size(), 1U) << "nothing to measure to";
+  QTest::keyClick(&widget_, Qt::Key_Delete);
+  EXPECT_TRUE(widget_.picks().measured().empty());
+  EXPECT_FALSE(selected());
+  settle();
+  EXPECT_TRUE(widget_.picks().lines().empty());
+}
+
+TEST_F(WidgetPickTest, OutsideCollapsedAndGoneAreNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const QPointF place : {QPointF(-5, 10), QPointF(10, 1e9), QPointF(-1e300, 1e300), QPointF(nan, 1.0)}) {
+    EXPECT_EQ(widget_.pick(place).error(), PickError::NothingThere);
+  }
+  const QPointF place = at(0, 0);
+  ASSERT_TRUE(widget_.pick(place));
+  widget_.scene()->removeLayer("/points");  // between hover and click
+  EXPECT_FALSE(widget_.pick(place));
+  click(place);
+  EXPECT_FALSE(selected());
+  ASSERT_TRUE(widget_.scene()->addLayer("/points"));
+  widget_.requestTick();
+  settle();
+  EXPECT_TRUE(widget_.pick(place));
+  widget_.resize(0, 0);
+  settle();
+  EXPECT_FALSE(widget_.pick({0, 0}));
+  widget_.resize(400, 300);
+  settle();
+  widget_.setDataset(nullptr, *executor_);
+  EXPECT_FALSE(widget_.pick(place));
+  settle();
+}
+
+TEST_F(WidgetPickTest, PanelShowsCopiesAndRemoves) {
+  InspectPanel panel;
+  panel.setView(&widget_);
+  EXPECT_EQ(panel.rows().topLevelItemCount(), 0);
+  click(at(-0.5, 0.0));
+  ASSERT_GT(panel.rows().topLevelItemCount(), 4);
+  const QString all = panel.copyText();
+  EXPECT_TRUE(all.contains(QStringLiteral("topic\t/points"))) << all.toStdString();
+  EXPECT_TRUE(all.contains(QStringLiteral("in lidar\t")));
+  EXPECT_TRUE(all.contains(QStringLiteral("in map\t")));
+  panel.rows().topLevelItem(0)->setSelected(true);
+  panel.findChild<QToolButton*>(QStringLiteral("copyPick"))->click();
+  EXPECT_EQ(QApplication::clipboard()->text(), QStringLiteral("topic\t/points"));
+  const QString before = panel.copyText();
+  widget_.setTime(TimePoint{5_s});
+  settle();
+  EXPECT_EQ(panel.copyText(), before) << "what is chosen stays chosen";
+  panel.rows().clearSelection();
+  EXPECT_NE(panel.copyText(), all) << "the position in the map is that of now";
+
+  click(at(0.5, 0.5), Qt::ShiftModifier);
+  EXPECT_EQ(panel.measurements().topLevelItemCount(), 1);
+  panel.findChild<QToolButton*>(QStringLiteral("removeMeasurement"))->click();
+  EXPECT_EQ(panel.measurements().topLevelItemCount(), 0);
+  EXPECT_TRUE(widget_.picks().measured().empty());
+  panel.setView(nullptr);
+  EXPECT_EQ(panel.rows().topLevelItemCount(), 0);
+}
+
+}  // namespace
+}  // namespace stillframe::viewer

@@ -1,0 +1,168 @@
+#include "viewer/pick/inspect_panel.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include "viewer/pick/view_picks.h"
+#include "viewer/widget/scene_widget.h"
+
+namespace stillframe::viewer {
+namespace {
+
+QTreeWidget* makeTable(QWidget* parent, const QString& name, const QStringList& columns) {
+  auto* table = new QTreeWidget(parent);
+  table->setObjectName(name);
+  table->setHeaderLabels(columns);
+  table->setRootIsDecorated(false);
+  table->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  table->setUniformRowHeights(true);
+  table->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  return table;
+}
+
+/// Rows are changed in place: what is chosen stays chosen while time goes on.
+void setRow(QTreeWidget& table, int index, const QStringList& texts) {
+  if (index == table.topLevelItemCount()) {
+    table.addTopLevelItem(new QTreeWidgetItem);
+  }
+  QTreeWidgetItem& row = *table.topLevelItem(index);
+  for (int column = 0; column < texts.size(); ++column) {
+    if (row.text(column) != texts[column]) {
+      row.setText(column, texts[column]);
+      row.setToolTip(column, texts[column]);
+    }
+  }
+}
+
+void dropRowsFrom(QTreeWidget& table, int count) {
+  while (table.topLevelItemCount() > count) {
+    delete table.takeTopLevelItem(table.topLevelItemCount() - 1);
+  }
+}
+
+}  // namespace
+
+InspectPanel::InspectPanel(QWidget* parent)
+    : QWidget(parent),
+      hint_(new QLabel(tr("Click something in the view. Shift+click a second point to measure."), this)),
+      rows_(makeTable(this, QStringLiteral("pickRows"), {tr("Name"), tr("Value")})),
+      measurements_(makeTable(this, QStringLiteral("measurements"), {tr("Distance"), tr("From"), tr("To")})),
+      copy_(new QToolButton(this)),
+      remove_(new QToolButton(this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(4, 4, 4, 4);
+  hint_->setWordWrap(true);
+  layout->addWidget(hint_);
+  layout->addWidget(rows_, 3);
+  copy_->setText(tr("Copy"));
+  copy_->setObjectName(QStringLiteral("copyPick"));
+  copy_->setToolTip(tr("Copies the lines chosen, or all, with all their digits (Ctrl+C)"));
+  layout->addWidget(copy_);
+  layout->addWidget(measurements_, 1);
+  remove_->setText(tr("Remove"));
+  remove_->setObjectName(QStringLiteral("removeMeasurement"));
+  remove_->setToolTip(tr("Removes the distances chosen, or all (Delete)"));
+  layout->addWidget(remove_);
+  connect(copy_, &QToolButton::clicked, this, &InspectPanel::copy);
+  connect(remove_, &QToolButton::clicked, this, &InspectPanel::removeMeasurements);
+  refresh();
+}
+
+void InspectPanel::setView(SceneWidget* view) {
+  if (view_ == view) {
+    return;
+  }
+  if (view_ != nullptr) {
+    view_->disconnect(this);
+    view_->picks().disconnect(this);
+  }
+  view_ = view;
+  if (view_ != nullptr) {
+    connect(view_, &SceneWidget::sceneUpdated, this, &InspectPanel::refresh);
+    connect(&view_->picks(), &ViewPicks::changed, this, &InspectPanel::refresh);
+  }
+  refresh();
+}
+
+void InspectPanel::refresh() {
+  const scenegraph::Scene* const scene = view_ != nullptr ? view_->scene() : nullptr;
+  const auto* const picked = scene != nullptr && view_->picks().selected() ? &*view_->picks().selected() : nullptr;
+  int count = 0;
+  if (picked != nullptr) {
+    const std::string display = view_->camera().displayFrame().value_or(scene->frames().fixedFrame());
+    for (const auto& [name, text] : scenegraph::pickRows(*scene, *picked, display)) {
+      setRow(*rows_, count++, {QString::fromStdString(name), QString::fromStdString(text)});
+    }
+  }
+  dropRowsFrom(*rows_, count);
+  hint_->setVisible(picked == nullptr);
+  copy_->setEnabled(picked != nullptr);
+  refreshMeasurements();
+}
+
+void InspectPanel::refreshMeasurements() {
+  const scenegraph::Scene* const scene = view_ != nullptr ? view_->scene() : nullptr;
+  int count = 0;
+  if (scene != nullptr) {
+    for (const ViewPicks::Pair& pair : view_->picks().measured()) {
+      const auto length = ViewPicks::lengthOf(*scene, pair);
+      const auto nameOf = [](const scenegraph::PickResult& end) {
+        return QString::fromStdString(end.topic + " " + end.picked.kind + " " + end.picked.id);
+      };
+      setRow(*measurements_, count++,
+             {length ? ViewPicks::text(*length) : tr("no place now"), nameOf(pair.first), nameOf(pair.second)});
+    }
+  }
+  dropRowsFrom(*measurements_, count);
+  measurements_->setVisible(count > 0);
+  remove_->setVisible(count > 0);
+}
+
+QString InspectPanel::copyText() const {
+  QStringList lines;
+  const bool has_chosen = !rows_->selectedItems().isEmpty();
+  for (int i = 0; i < rows_->topLevelItemCount(); ++i) {
+    const QTreeWidgetItem& row = *rows_->topLevelItem(i);
+    if (row.isSelected() || !has_chosen) {
+      lines << row.text(0) + QLatin1Char('\t') + row.text(1);
+    }
+  }
+  return lines.join(QLatin1Char('\n'));
+}
+
+void InspectPanel::copy() { QApplication::clipboard()->setText(copyText()); }
+
+void InspectPanel::removeMeasurements() {
+  if (view_ == nullptr) {
+    return;
+  }
+  const bool has_chosen = !measurements_->selectedItems().isEmpty();
+  std::vector<std::size_t> gone;
+  for (int i = measurements_->topLevelItemCount() - 1; i >= 0; --i) {
+    if (!has_chosen || measurements_->topLevelItem(i)->isSelected()) {
+      gone.push_back(static_cast<std::size_t>(i));
+    }
+  }
+  measurements_->clearSelection();
+  for (const std::size_t index : gone) {  // from the end
+    view_->picks().removeMeasurement(index);
+  }
+}
+
+void InspectPanel::keyPressEvent(QKeyEvent* event) {
+  if (event->matches(QKeySequence::Copy)) {
+    copy();
+  } else if (event->key() == Qt::Key_Delete) {
+    removeMeasurements();
+  } else {
+    QWidget::keyPressEvent(event);
+  }
+}
+
+}  // namespace stillframe::viewer

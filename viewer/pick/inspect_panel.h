@@ -1,0 +1,46 @@
+#pragma once
+
+#include <QPointer>
+#include <QWidget>
+
+class QLabel;
+class QTreeWidget;
+class QToolButton;
+
+namespace stillframe::viewer {
+
+class SceneWidget;
+
+/// All that is known of what was picked in one view, to read and to copy with all its digits, and the distances
+/// measured there. Positions and lengths are those of the present time. GUI thread.
+class InspectPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit InspectPanel(QWidget* parent = nullptr);
+
+  /// The view to tell of from now on; nullptr: none.
+  void setView(SceneWidget* view);
+  /// What Copy puts into the clipboard: a name, a tab and a text a line; of the lines chosen, or of all.
+  [[nodiscard]] QString copyText() const;
+  [[nodiscard]] QTreeWidget& rows() noexcept { return *rows_; }
+  [[nodiscard]] QTreeWidget& measurements() noexcept { return *measurements_; }
+
+ protected:
+  void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  void refresh();
+  void refreshMeasurements();
+  void copy();
+  void removeMeasurements();
+
+  QPointer<SceneWidget> view_;
+  QLabel* hint_ = nullptr;
+  QTreeWidget* rows_ = nullptr;
+  QTreeWidget* measurements_ = nullptr;
+  QToolButton* copy_ = nullptr;
+  QToolButton* remove_ = nullptr;
+};
+
+}  // namespace stillframe::viewer

@@ -6,7 +6,21 @@
 #include <osg/observer_ptr>
 #include <tuple>
 
+#include "generated/stillframe_geometry/shaders.h"
+
 namespace stillframe::scenegraph {
+namespace {
+
+/// Of a shader whose first line says the version. Its main() goes by another name where SF_LISTED is defined, so that
+/// what it writes can be kept instead.
+std::string listable(const std::string& fragment_source) {
+  const std::size_t first_line = fragment_source.find('\n') + 1;
+  return fragment_source.substr(0, first_line) +
+         "#pragma import_defines(SF_LISTED)\n#ifdef SF_LISTED\n#define main sfMain\n#endif\n" +
+         fragment_source.substr(first_line) + shaders::stillframe_geometry::k_listed_glsl;
+}
+
+}  // namespace
 
 osg::ref_ptr<osg::Geometry> makeGeometry() {
   osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
@@ -36,7 +50,7 @@ osg::ref_ptr<osg::Program> makeProgram(const std::string& name, const std::strin
   program = new osg::Program;
   program->setName(name);
   osg::ref_ptr<osg::Shader> vertex = new osg::Shader{osg::Shader::VERTEX, vertex_source};
-  osg::ref_ptr<osg::Shader> fragment = new osg::Shader{osg::Shader::FRAGMENT, fragment_source};
+  osg::ref_ptr<osg::Shader> fragment = new osg::Shader{osg::Shader::FRAGMENT, listable(fragment_source)};
   vertex->setName(name + ".vert");
   fragment->setName(name + ".frag");
   program->addShader(vertex);

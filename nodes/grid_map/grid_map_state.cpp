@@ -33,7 +33,17 @@ void GridMapState::apply(const GridMapSettings& settings, bool is_surface, bool 
   missing_is_hole_->set(!is_surface);
   shading_->set(settings.shading && is_surface);
   opacity_->set(static_cast<float>(settings.opacity));
-  scenegraph::setBlended(*state_, settings.opacity < 1.0 || is_translucent);
+  is_blended_ = settings.opacity < 1.0 || is_translucent;
+  setBin();
+}
+
+/// Flat maps write depth, by which what is blended cannot be put in order: they go before it, after occupancy grids.
+void GridMapState::setBin() {
+  scenegraph::setBlended(*state_, is_blended_);
+  if (is_blended_ && state_->getAttribute(osg::StateAttribute::PROGRAM) == flat_program_) {
+    constexpr int kBeforeBlended = 9;
+    state_->setRenderBinDetails(kBeforeBlended, "RenderBin");
+  }
 }
 
 void GridMapState::setDepthStep(float step) {
@@ -45,6 +55,7 @@ void GridMapState::setDepthStep(float step) {
     } else {
       state_->removeUniform(depth_step_);
     }
+    setBin();
   }
   depth_step_->set(step);
 }

@@ -35,6 +35,8 @@ class GridMapState {
   void setColor(MapColorMode mode, osg::Texture2D* texture, const RangeMap& map);
 
  private:
+  void setBin();
+
   osg::ref_ptr<osg::StateSet> state_;
   osg::ref_ptr<osg::Program> surface_program_;
   osg::ref_ptr<osg::Program> flat_program_;
@@ -45,6 +47,7 @@ class GridMapState {
   osg::ref_ptr<osg::Uniform> missing_is_hole_;
   osg::ref_ptr<osg::Uniform> shading_;
   osg::ref_ptr<osg::Uniform> opacity_;
+  bool is_blended_ = false;
 };
 
 }  // namespace stillframe::nodes

@@ -59,6 +59,40 @@ std::uint32_t makeSampledTexture(std::uint32_t internal_format, int samples, int
 
 void deleteTexture(std::uint32_t texture) { glDeleteTextures(1, &texture); }
 
+std::uint32_t makeNumbers(int width, int height, int layers, int channels) {
+  const GLenum format = channels == 1 ? GL_R32UI : GL_RGBA32UI;
+  GLuint texture = 0;
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  if (layers > 0) {
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &texture);
+    glTextureStorage3D(texture, 1, format, width, height, layers);
+  } else {
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, format, width, height);
+  }
+  if (glGetError() != GL_NO_ERROR) {
+    glDeleteTextures(1, &texture);
+    return 0;
+  }
+  return texture;
+}
+
+void clearNumbers(std::uint32_t texture) { glClearTexImage(texture, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr); }
+
+void bindNumbers(std::uint32_t unit, std::uint32_t texture, int channels) {
+  glBindImageTexture(unit, texture, 0, GL_TRUE, 0, GL_READ_WRITE, channels == 1 ? GL_R32UI : GL_RGBA32UI);
+}
+
+void finishImages() { glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT); }
+
+std::uint32_t readNumber(std::uint32_t texture) {
+  std::uint32_t number = 0;
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glGetTextureImage(texture, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, sizeof(number), &number);
+  return number;
+}
+
 std::vector<float> readColor(std::uint32_t texture, int width_px, int height_px) {
   GLint format = 0;
   glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);

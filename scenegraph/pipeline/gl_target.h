@@ -18,6 +18,16 @@ void selectTextureUnits(std::uint32_t unit, std::uint32_t client_unit);
 /// A multisampled texture, whose deletion is the caller's.
 [[nodiscard]] std::uint32_t makeSampledTexture(std::uint32_t internal_format, int samples, int width_px, int height_px);
 void deleteTexture(std::uint32_t texture);
+/// A texture of unsigned numbers in layers (a GL_TEXTURE_2D_ARRAY when there are any, else a GL_TEXTURE_2D) with
+/// `channels` of 32 bits, 1 or 4; 0 when there is no memory for it. Its deletion is the caller's.
+[[nodiscard]] std::uint32_t makeNumbers(int width, int height, int layers, int channels);
+void clearNumbers(std::uint32_t texture);
+/// To an image unit, all layers, for reading and writing.
+void bindNumbers(std::uint32_t unit, std::uint32_t texture, int channels);
+/// What shaders wrote to images before is seen by shaders, and by reads and clears, after.
+void finishImages();
+/// The first number of a texture of one; waits for the GPU.
+[[nodiscard]] std::uint32_t readNumber(std::uint32_t texture);
 /// Texels of level 0 of a colour texture as RGBA, bottom row first; waits for the GPU.
 [[nodiscard]] std::vector<float> readColor(std::uint32_t texture, int width_px, int height_px);
 /// The same of a 32-bit float depth texture, one float a pixel.

@@ -105,6 +105,7 @@ std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const
   pipeline_->setView(view);
   pipeline_->setBackground(options.background);
   pipeline_->setPointWay(options.points);
+  pipeline_->setMostSorted(options.most_sorted);
   pipeline_->setPostChain(options.post);
   const auto start = std::chrono::steady_clock::now();
   const auto drawn = pipeline_->renderLinear(options.width, options.height);

@@ -34,6 +34,7 @@ struct RenderOptions {
   Color background{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
   PostChain post = {};
   PointWay points = PointWay::Auto;  ///< who draws opaque points
+  int most_sorted = kMostSorted;     ///< blended fragments of a sample that are put in order (ViewPipeline)
 };
 
 /// What the last render() did and took, in milliseconds of wall time with the GPU drained.

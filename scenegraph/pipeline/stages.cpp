@@ -67,6 +67,22 @@ osg::ref_ptr<osg::Camera> makeTargetCamera(int order, int width_px, int height_p
   return camera;
 }
 
+/// Hands the blended things that were culled to `transparency`.
+class AdoptBlended : public osg::NodeCallback {
+ public:
+  explicit AdoptBlended(const osg::ref_ptr<Transparency>& transparency) : transparency_(transparency) {}
+  void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+    traverse(node, visitor);
+    if (osgUtil::CullVisitor* const cull = visitor->asCullVisitor()) {
+      transparency_->adopt(*cull);
+    }
+  }
+
+ private:
+  ~AdoptBlended() override = default;
+  osg::ref_ptr<Transparency> transparency_;
+};
+
 Status unknownInput(const PostPass& pass, const std::string& input) {
   return {StatusLevel::Error, "UnknownInput",
           "the pass '" + pass.name + "' reads '" + input + "', which nothing before it writes"};
@@ -188,6 +204,8 @@ void Stages::addScene(osg::Group& root, const PostChain& chain) {
   state.addUniform(new osg::Uniform{"u_linear_output", 1.0F});
   state.addUniform(new osg::Uniform{"u_viewport_height_px", static_cast<float>(height)});
   scene_camera_->addChild(&root);
+  transparency_ = new Transparency{width, height, samples_, options_.most_sorted};
+  scene_camera_->setCullCallback(new AdoptBlended{transparency_});
   group_->addChild(scene_camera_);
   if (samples_ > 1) {
     state.setMode(GL_MULTISAMPLE, osg::StateAttribute::ON);
@@ -290,6 +308,7 @@ void Stages::startSubFrame(int index) {
 
 void Stages::release(osg::State& state) {
   scene_camera_->removeChildren(0, scene_camera_->getNumChildren());  // the scene keeps its objects
+  transparency_->release(state);
   group_->releaseGLObjects(&state);
   group_->removeChildren(0, group_->getNumChildren());
   for (const auto& [name, target] : targets_) {

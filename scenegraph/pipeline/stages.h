@@ -12,6 +12,7 @@
 
 #include "scenegraph/camera/camera.h"
 #include "scenegraph/pipeline/post_chain.h"
+#include "scenegraph/pipeline/transparency.h"
 #include "scenegraph/settings.h"
 #include "scenegraph/status.h"
 
@@ -29,6 +30,7 @@ class Stages {
     int height_px = 0;
     int max_samples = 1;  ///< of the driver; more are not asked for
     unsigned context_id = 0;
+    int most_sorted = 0;    ///< blended fragments of a sample that are put in order
     bool presents = false;  ///< ends with the sRGB picture in the viewer's framebuffer
   };
   /// Error "UnknownInput": a pass reads what no earlier one wrote. The context must be current.
@@ -52,6 +54,7 @@ class Stages {
 
   [[nodiscard]] const std::vector<std::string>& passes() const noexcept { return passes_; }
   [[nodiscard]] int samples() const noexcept { return samples_; }
+  [[nodiscard]] const Transparency& transparency() const noexcept { return *transparency_; }
   /// nullptr when there is none of that name.
   [[nodiscard]] osg::Texture* target(const std::string& name) const;
   [[nodiscard]] const std::string& lastTarget() const noexcept { return last_target_; }
@@ -73,6 +76,7 @@ class Stages {
   Options options_;
   osg::ref_ptr<osg::Group> group_;
   osg::ref_ptr<osg::Camera> scene_camera_;
+  osg::ref_ptr<Transparency> transparency_;
   osg::ref_ptr<osg::Camera> averaging_;
   std::vector<osg::ref_ptr<osg::Node>> after_averaging_;
   std::vector<osg::ref_ptr<osg::StateSet>> pass_states_;

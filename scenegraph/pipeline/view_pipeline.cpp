@@ -43,6 +43,7 @@ struct ViewPipeline::Impl {
   int width_px = 0;
   int height_px = 0;
   bool presents = false;
+  int most_sorted = kMostSorted;
   PointWay point_way = PointWay::Auto;
   double point_budget_ms = std::numeric_limits<double>::infinity();
   bool is_software = false;
@@ -99,6 +100,7 @@ std::expected<void, Status> ViewPipeline::Impl::makeStages() {
                             .height_px = height_px,
                             .max_samples = max_samples,
                             .context_id = contextId(),
+                            .most_sorted = most_sorted,
                             .presents = presents});
   if (!made) {
     return std::unexpected(made.error());
@@ -224,6 +226,9 @@ std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, i
   }
   gl::bindFramebuffer(output_fbo);
   passes = stages->passes();
+  if (stages->transparency().isInUse()) {
+    passes.insert(passes.begin() + 1, "transparency");
+  }
   return remade ? checkTargets() : std::expected<void, Status>{};
 }
 
@@ -248,6 +253,11 @@ void ViewPipeline::setPostChain(PostChain chain) {
     impl_->is_chain_new = true;
   }
   impl_->chain = std::move(chain);
+}
+
+void ViewPipeline::setMostSorted(int fragments) {
+  impl_->is_chain_new = impl_->is_chain_new || fragments != impl_->most_sorted;
+  impl_->most_sorted = fragments;
 }
 
 void ViewPipeline::setPointWay(PointWay way) { impl_->point_way = way; }

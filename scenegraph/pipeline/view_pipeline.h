@@ -24,6 +24,9 @@ struct LinearFrame {
   std::vector<float> depth;  ///< reverse-Z of the scene pass, 0 where nothing was drawn
 };
 
+/// Blended fragments of a sample that are put in order, unless somebody asks for another number.
+inline constexpr int kMostSorted = 64;
+
 /// Who draws opaque points.
 enum class PointWay : std::uint8_t { Auto, OpenGl, Cpu };
 
@@ -48,6 +51,10 @@ class ViewPipeline {
   /// What happens between scene and present. A chain that differs from the one before in the values of uniforms alone
   /// costs nothing; any other makes targets and shaders anew.
   void setPostChain(PostChain chain);
+
+  /// Of what is blended, how many fragments of a sample are put in order; those behind them count by their mean. 0:
+  /// none is, which is weighted blending. kMostSorted at first.
+  void setMostSorted(int fragments);
 
   /// How opaque points are drawn: by OpenGL, or on the CPU and put into its picture. Auto takes the CPU where OpenGL is
   /// itself software, no multisampling is asked for, and the points are so many that it pays. The picture is the same.

@@ -11,6 +11,7 @@
 #include "tools/accuracy/points_accuracy.h"
 #include "tools/accuracy/post_accuracy.h"
 #include "tools/accuracy/tf_accuracy.h"
+#include "tools/accuracy/transparency_accuracy.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_session.h"
 #include "tools/cli/temporary_sample.h"
@@ -77,6 +78,18 @@ Result<AccuracyReport> reportOfPost(const AccuracyOptions& /*options*/) {
   return std::move(measured->report);
 }
 
+Result<AccuracyReport> reportOfTransparency(const AccuracyOptions& /*options*/) {
+  auto renderer = scenegraph::OffscreenRenderer::create();
+  if (!renderer) {
+    return failure(renderer.error().message);
+  }
+  auto measured = accuracy::transparencyAccuracy(**renderer);
+  if (!measured) {
+    return failure(measured.error().message);
+  }
+  return std::move(measured->report);
+}
+
 /// A subject is a line here and a file of tools/accuracy/.
 struct Subject {
   const char* name;
@@ -87,6 +100,7 @@ struct Subject {
 constexpr std::array kSubjects{
     Subject{"tf", "the ways of composing a chain of transforms", &reportOfTf},
     Subject{"post", "the post passes: occlusion, eye-dome lighting, target formats, anti-aliasing", &reportOfPost},
+    Subject{"transparency", "putting only so many blended fragments of a pixel in order", &reportOfTransparency},
     Subject{"depth", "turning round the lens of a depth camera", &reportOfDepth},
     Subject{"points", "drawing fewer points, by each rasteriser, of FILE or of a sample", &reportOfPoints},
 };

@@ -1,0 +1,156 @@
+#include "scenegraph/pipeline/transparency.h"
+
+#include <algorithm>
+#include <bit>
+#include <osg/BlendFunc>
+#include <osg/ColorMask>
+#include <osg/Depth>
+#include <osg/Scissor>
+#include <vector>
+
+#include "generated/stillframe_render/shaders.h"
+#include "scenegraph/geometry.h"
+#include "scenegraph/pipeline/full_screen.h"
+#include "scenegraph/pipeline/gl_target.h"
+
+namespace stillframe::scenegraph {
+namespace {
+
+constexpr int kTransparentBin = 10;  // of osg::StateSet::TRANSPARENT_BIN
+constexpr std::uint32_t kListWidth = 2048;
+constexpr std::uint32_t kFewestFragments = 1U << 18U;
+constexpr std::uint32_t kMostFragments = 1U << 24U;
+constexpr auto kWins = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
+constexpr auto kOff = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
+
+/// What is collected writes neither colours nor depth.
+osg::ref_ptr<osg::StateSet> makeCollecting() {
+  osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+  state->setDefine("SF_LISTED", osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+  state->setAttribute(new osg::ColorMask{false, false, false, false}, kWins);
+  state->setAttribute(new osg::Depth{osg::Depth::GREATER, 0.0, 1.0, false}, kWins);
+  state->setMode(GL_BLEND, kOff);
+  return state;
+}
+
+/// Over everything, whatever state the last of the scene left.
+osg::ref_ptr<osg::StateSet> makeLayingOver(int most_sorted) {
+  namespace glsl = shaders::stillframe_render;
+  osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+  state->setAttributeAndModes(makeProgram("transparency", glsl::k_full_screen_vert, glsl::k_transparency_frag), kWins);
+  state->setAttributeAndModes(new osg::BlendFunc{GL_ONE, GL_ONE_MINUS_SRC_ALPHA}, kWins);
+  state->setAttributeAndModes(new osg::Depth{osg::Depth::ALWAYS, 0.0, 1.0, true}, kWins);
+  state->setMode(GL_CULL_FACE, kOff);
+  state->addUniform(new osg::Uniform{"u_most_sorted", most_sorted}, kWins);
+  return state;
+}
+
+}  // namespace
+
+Transparency::Transparency(int width_px, int height_px, int samples, int most_sorted)
+    : width_px_(width_px),
+      height_px_(height_px),
+      samples_(samples),
+      collecting_(makeCollecting()),
+      laying_over_(makeFullScreenTriangle(makeLayingOver(most_sorted))) {}
+
+void Transparency::adopt(osgUtil::CullVisitor& cull) {
+  auto& bins = cull.getCurrentRenderBin()->getRenderBinList();
+  const auto found = bins.find(kTransparentBin);
+  is_in_use_ = found != bins.end();
+  if (is_in_use_) {
+    found->second->setDrawCallback(this);
+  }
+}
+
+void Transparency::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& render_info,
+                                      osgUtil::RenderLeaf*& previous) {
+  makeLists();
+  bands_ = 0;
+  std::vector<Rows> to_do{{0, height_px_}};
+  while (!to_do.empty()) {
+    const Rows rows = to_do.back();
+    to_do.pop_back();
+    collect(*bin, render_info, previous, rows);
+    const std::uint32_t fragments = gl::readNumber(count_);
+    if (fragments == 0) {
+      continue;
+    }
+    if (fragments > capacity_) {
+      if (grow(fragments)) {
+        to_do.push_back(rows);
+        continue;
+      }
+      if (rows.count > 1) {
+        to_do.push_back({rows.first + rows.count / 2, rows.count - rows.count / 2});
+        to_do.push_back({rows.first, rows.count / 2});
+        continue;
+      }
+    }
+    layOver(render_info, rows);
+    ++bands_;
+  }
+}
+
+void Transparency::makeLists() {
+  if (heads_ == 0) {
+    heads_ = gl::makeNumbers(width_px_, height_px_, samples_, 1);
+    count_ = gl::makeNumbers(1, 1, 0, 1);
+    grow(kFewestFragments);
+  }
+}
+
+/// False when there is room for no more than there is.
+bool Transparency::grow(std::uint32_t fragments) {
+  const std::uint32_t wanted = std::min(std::bit_ceil(fragments), kMostFragments);
+  if (wanted <= capacity_) {
+    return false;
+  }
+  const std::uint32_t made = gl::makeNumbers(static_cast<int>(kListWidth), static_cast<int>(wanted / kListWidth), 0, 4);
+  if (made == 0) {
+    return false;
+  }
+  if (fragments_ != 0) {
+    gl::deleteTexture(fragments_);
+  }
+  fragments_ = made;
+  capacity_ = wanted;
+  return true;
+}
+
+void Transparency::collect(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous,
+                           const Rows& rows) {
+  gl::clearNumbers(heads_);
+  gl::clearNumbers(count_);
+  gl::bindNumbers(0, heads_, 1);
+  gl::bindNumbers(1, count_, 1);
+  gl::bindNumbers(2, fragments_, 4);
+  collecting_->setAttributeAndModes(new osg::Scissor{0, rows.first, width_px_, rows.count}, kWins);
+  bin.setStateSet(collecting_);
+  bin.drawImplementation(render_info, previous);
+  gl::finishImages();
+}
+
+void Transparency::layOver(osg::RenderInfo& render_info, const Rows& rows) {
+  osg::State& state = *render_info.getState();
+  osg::StateSet& own = *laying_over_->getStateSet();
+  own.setAttributeAndModes(new osg::Scissor{0, rows.first, width_px_, rows.count}, kWins);
+  state.pushStateSet(&own);
+  state.apply();
+  laying_over_->draw(render_info);
+  state.popStateSet();
+  gl::finishImages();
+}
+
+void Transparency::release(osg::State& state) {
+  laying_over_->releaseGLObjects(&state);
+  for (std::uint32_t* const texture : {&heads_, &count_, &fragments_}) {
+    if (*texture != 0) {
+      gl::deleteTexture(*texture);
+      *texture = 0;
+    }
+  }
+  capacity_ = 0;
+}
+
+}  // namespace stillframe::scenegraph

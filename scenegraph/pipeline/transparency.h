@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <osg/Geometry>
+#include <osg/StateSet>
+#include <osg/ref_ptr>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderBin>
+
+namespace stillframe::scenegraph {
+
+/// Draws what is blended (setBlended()) without regard to the order it comes in.
+///
+/// Its fragments are not blended as they come but kept in lists, one for each sample, by the shaders as they are with
+/// SF_LISTED defined; a full-screen step then puts each list in order of depth and lays it over the picture. So things
+/// that run through each other come out right, and no order of layers or of triangles changes a pixel; depth is that of
+/// the nearest. A frame without them costs nothing: not a target, not a shader. With them 16 bytes a fragment, from
+/// 4 MiB to 256 MiB; a picture with more is drawn in bands. The nearest `most_sorted` fragments of a sample are exact,
+/// the rest counts by its mean: `stillframe accuracy transparency` has the curve. A wait for the GPU a frame. Thread of
+/// the context only.
+class Transparency : public osgUtil::RenderBin::DrawCallback {
+ public:
+  Transparency(int width_px, int height_px, int samples, int most_sorted);
+
+  /// To be called when `cull` has been through the scene: takes over the bin of what is blended, if there is one.
+  void adopt(osgUtil::CullVisitor& cull);
+  void drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& render_info,
+                          osgUtil::RenderLeaf*& previous) override;
+  /// Whether the last frame had anything blended.
+  [[nodiscard]] bool isInUse() const noexcept { return is_in_use_; }
+  /// Bands that the last frame was drawn in.
+  [[nodiscard]] int bands() const noexcept { return bands_; }
+  /// The context must be current.
+  void release(osg::State& state);
+
+ private:
+  ~Transparency() override = default;
+  struct Rows {
+    int first = 0;
+    int count = 0;
+  };
+  void makeLists();
+  bool grow(std::uint32_t fragments);
+  void collect(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous, const Rows& rows);
+  void layOver(osg::RenderInfo& render_info, const Rows& rows);
+
+  int width_px_;
+  int height_px_;
+  int samples_;
+  bool is_in_use_ = false;
+  int bands_ = 0;
+  osg::ref_ptr<osg::StateSet> collecting_;
+  osg::ref_ptr<osg::Geometry> laying_over_;
+  // Names of textures, 0 before they are needed.
+  std::uint32_t heads_ = 0;
+  std::uint32_t count_ = 0;
+  std::uint32_t fragments_ = 0;
+  std::uint32_t capacity_ = 0;  // fragments
+};
+
+}  // namespace stillframe::scenegraph

@@ -1,0 +1,31 @@
+#include "tools/accuracy/transparency_accuracy.h"
+
+#include <gtest/gtest.h>
+
+namespace stillframe::accuracy {
+namespace {
+
+TEST(TransparencyAccuracy, HasNoErrorWhereAllIsInOrderAndLittleWhereWhatMattersIs) {
+  auto renderer = scenegraph::OffscreenRenderer::create();
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  const auto measured = transparencyAccuracy(**renderer, 0.0);
+  ASSERT_TRUE(measured) << measured.error().message;
+  bool has_default = false;
+  for (const TransparencyRow& row : measured->rows) {
+    const std::string name = std::to_string(row.layers) + " layers, " + std::to_string(row.most_sorted) + " in order";
+    if (row.most_sorted >= row.layers) {
+      EXPECT_EQ(row.max_error, 0.0) << name;
+    } else if (row.most_sorted == 0) {
+      EXPECT_GT(row.max_error, 0.02) << name;
+    }
+    if (row.most_sorted == scenegraph::kMostSorted) {
+      has_default = true;
+      EXPECT_LT(row.max_error, 1.0 / 255.0) << name << ": a step of a byte";
+    }
+  }
+  EXPECT_TRUE(has_default);
+  EXPECT_NE(measured->report.svg.find("<svg"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stillframe::accuracy

@@ -169,7 +169,7 @@ MarkerPicture::Counts MarkerPicture::counts() const {
   for (const auto& [frame, parts] : parts_) {
     counts.draw_calls += parts->drawCalls();
     counts.left_out += parts->rest().leftOut();
-    counts.failed_models += parts->rest().failedModels();
+    counts.failed_models += parts->rest().models().failed();
   }
   return counts;
 }
@@ -191,7 +191,7 @@ void MarkerPicture::setModels(const std::shared_ptr<const ModelSet>& models) {
 
 std::optional<scenegraph::Status> MarkerPicture::modelFailure() const {
   for (const auto& [frame, parts] : parts_) {
-    if (const auto& failure = parts->rest().modelFailure()) {
+    if (const auto& failure = parts->rest().models().failure()) {
       return failure;
     }
   }

@@ -120,8 +120,9 @@ Status MarkersLayer::remark(tf::TimePoint time) const {
                 std::to_string(RestParts::kMostTexts) + " texts"};
   }
   if (const auto failure = picture_->modelFailure()) {
+    const std::uint64_t others = counts.failed_models - 1;
     return {StatusLevel::Warn, failure->code,
-            base + plural(counts.failed_models, "model") + " not drawn: " + failure->message};
+            base + failure->message + (others > 0 ? ", and so for " + plural(others, "other") : "")};
   }
   if (state.totals.flat > 0) {
     return {StatusLevel::Info, "ZeroScale",

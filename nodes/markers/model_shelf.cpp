@@ -3,24 +3,55 @@
 #include <algorithm>
 #include <utility>
 
+#include "nodes/markers/textured_triangles.h"
 #include "nodes/meshes/mesh_loader.h"
+#include "nodes/primitives/triangle_mesh.h"
 
 namespace stillframe::nodes {
 namespace {
 
 using scenegraph::ModelPrimitive;
+using scenegraph::Status;
+using scenegraph::StatusLevel;
+using scenegraph::TrianglePrimitive;
 
-ModelSet::Loaded load(const MeshLoader& loader, const std::string& key, const scenegraph::SceneEntity& entity) {
-  const auto model = std::ranges::find(entity.models, key, modelKey);
-  if (model == entity.models.end()) {
-    return std::unexpected(scenegraph::Status{scenegraph::StatusLevel::Error, "MeshMissing", "the model is gone"});
-  }
+std::string keyOf(const void* at, std::size_t size) {
+  return std::to_string(reinterpret_cast<std::uintptr_t>(at)) + "+" + std::to_string(size);
+}
+
+ShelfModel placeholder(Status failure) {
+  return {std::make_shared<const MeshArrays>(boxMesh()), std::move(failure), true};
+}
+
+ShelfModel loadMesh(const MeshLoader& loader, const ModelPrimitive& model) {
   const auto mesh =
-      model->data.bytes.empty() ? loader.load(model->url) : loader.loadBytes(model->data.bytes, model->media_type);
+      model.data.bytes.empty() ? loader.load(model.url) : loader.loadBytes(model.data.bytes, model.media_type);
   if (!mesh) {
-    return std::unexpected(mesh.error());
+    return placeholder(mesh.error());
   }
-  return std::make_shared<const MeshArrays>(**mesh);
+  ShelfModel loaded{std::make_shared<const MeshArrays>(**mesh), std::nullopt};
+  if (!(*mesh)->remarks.empty()) {
+    loaded.failure =
+        Status{StatusLevel::Warn, "MeshIncomplete",
+               (model.data.bytes.empty() ? "'" + model.url + "'" : std::string("the mesh in the message")) + ": " +
+                   (*mesh)->remarks};
+  }
+  return loaded;
+}
+
+ShelfModel loadTriangles(const MeshLoader& loader, const TrianglePrimitive& triangles) {
+  TexturedTriangles made = texturedTriangles(triangles, loader);
+  return {std::make_shared<const MeshArrays>(made.mesh), std::move(made.failure), false, made.origin};
+}
+
+ShelfModel load(const MeshLoader& loader, const std::string& key, const scenegraph::SceneEntity& entity) {
+  const auto isNamed = [&](const auto& primitive) { return modelKey(primitive) == key; };
+  if (const auto model = std::ranges::find_if(entity.models, isNamed); model != entity.models.end()) {
+    return loadMesh(loader, *model);
+  }
+  const auto triangles = std::ranges::find_if(entity.triangles, isNamed);
+  return triangles != entity.triangles.end() ? loadTriangles(loader, *triangles)
+                                             : placeholder({StatusLevel::Error, "MeshMissing", "the model is gone"});
 }
 
 }  // namespace
@@ -28,9 +59,14 @@ ModelSet::Loaded load(const MeshLoader& loader, const std::string& key, const sc
 std::string modelKey(const ModelPrimitive& model) {
   return model.data.bytes.empty()
              ? model.url
-             : "data:" + std::to_string(reinterpret_cast<std::uintptr_t>(model.data.bytes.data())) + "+" +
-                   std::to_string(model.data.bytes.size()) + model.media_type;
+             : "data:" + keyOf(model.data.bytes.data(), model.data.bytes.size()) + model.media_type;
 }
+
+std::string modelKey(const TrianglePrimitive& triangles) {
+  return "triangles:" + keyOf(triangles.points.data(), triangles.points.size());
+}
+
+bool isTextured(const TrianglePrimitive& triangles) { return !triangles.uvs.empty(); }
 
 ModelShelf::ModelShelf(const scenegraph::LayerContext& context)
     : dataset_(context.dataset.shared_from_this()), job_(context.executor, context.request_update) {}
@@ -52,7 +88,9 @@ void ModelShelf::want(const WantedModels& wanted) {
     auto set = std::make_shared<ModelSet>();
     for (const auto& [name, entity] : wanted) {
       const auto found = known->models.find(name);
-      set->models.emplace(name, found != known->models.end() ? found->second : load(loader, name, *entity));
+      const bool is_known = found != known->models.end();
+      set->models.emplace(name, is_known ? found->second : load(loader, name, *entity));
+      set->owners.emplace(name, is_known ? known->owners.at(name) : entity);
     }
     return set;
   });

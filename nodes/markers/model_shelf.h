@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <expected>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,15 +15,26 @@ namespace stillframe::nodes {
 
 /// What names the mesh of a model: its url, or where its bytes lie.
 [[nodiscard]] std::string modelKey(const scenegraph::ModelPrimitive& model);
+/// Triangles with a texture are drawn as models are.
+[[nodiscard]] std::string modelKey(const scenegraph::TrianglePrimitive& triangles);
+[[nodiscard]] bool isTextured(const scenegraph::TrianglePrimitive& triangles);
 
-/// Models by modelKey(): the mesh, or why there is none.
-struct ModelSet {
-  using Loaded = std::expected<std::shared_ptr<const MeshArrays>, scenegraph::Status>;
-  std::map<std::string, Loaded> models;
+/// A mesh that is there, and what it lacks.
+struct ShelfModel {
+  std::shared_ptr<const MeshArrays> mesh;     ///< never null: a box of 1 m stands for what is missing or broken
+  std::optional<scenegraph::Status> failure;  ///< why there is none, or none as it should be
+  bool is_placeholder = false;
+  glm::dvec3 origin{0.0};  ///< of the mesh, in the space of the primitive
 };
 
 /// Models that are wanted, by modelKey(); each with an entity that it belongs to, which keeps its bytes.
 using WantedModels = std::map<std::string, std::shared_ptr<const scenegraph::SceneEntity>>;
+
+/// Models by modelKey().
+struct ModelSet {
+  std::map<std::string, ShelfModel> models;
+  WantedModels owners;  ///< as long as they live, no other bytes have the same key
+};
 
 /// Loads the meshes of models off the GUI thread, as MeshLoader does. GUI thread.
 class ModelShelf {

@@ -114,7 +114,6 @@ std::size_t addTriangles(const TrianglePrimitive& triangles, TriangleDrawable& o
 }  // namespace
 
 RestParts::RestParts(const std::string& name, TextMaker& texts) : text_maker_(texts) {
-  model_node_->setStateSet(model_state_.stateSet());
   for (const std::size_t i : {0U, 1U}) {
     strokes_[i].node = new osg::MatrixTransform;
     strokes_[i].node->setName(name);
@@ -127,7 +126,9 @@ RestParts::RestParts(const std::string& name, TextMaker& texts) : text_maker_(te
 void RestParts::set(std::size_t slot, std::shared_ptr<const SceneEntity> entity) {
   const auto known = entities_.find(slot);
   const auto touch = [&](const SceneEntity& changed) {
-    has_new_models_ = has_new_models_ || !changed.models.empty();
+    if (!changed.models.empty() || std::ranges::any_of(changed.triangles, isTextured)) {
+      models_.touch();
+    }
     const bool has_axes = std::ranges::any_of(changed.axes, &scenegraph::AxesPrimitive::is_scale_invariant);
     has_new_lines_ = has_new_lines_ || !changed.lines.empty() || has_axes;
     has_new_triangles_ = has_new_triangles_ || !changed.triangles.empty();
@@ -249,7 +250,7 @@ void RestParts::makeTriangles() {
     surface_ends_[i].clear();
     for (const auto& [slot, entity] : entities_) {
       for (const TrianglePrimitive& triangles : entity->triangles) {
-        if (isTranslucent(triangles) == (i == 1)) {
+        if (!isTextured(triangles) && isTranslucent(triangles) == (i == 1)) {
           unsound_triangles_ += addTriangles(triangles, surface);
         }
       }
@@ -259,64 +260,8 @@ void RestParts::makeTriangles() {
   }
 }
 
-void RestParts::setModels(std::shared_ptr<const ModelSet> models) {
-  if (models_ != models) {
-    models_ = std::move(models);
-    has_new_models_ = true;
-  }
-}
-
-void RestParts::collectModels(WantedModels& wanted) const {
-  for (const auto& [slot, entity] : entities_) {
-    for (const scenegraph::ModelPrimitive& model : entity->models) {
-      wanted.emplace(modelKey(model), entity);
-    }
-  }
-}
-
-void RestParts::makeModels() {
-  model_node_->removeChildren(0, model_node_->getNumChildren());
-  model_slots_.clear();
-  unsound_models_ = failed_models_ = 0;
-  model_failure_.reset();
-  models_box_.init();
-  for (const auto& [slot, entity] : entities_) {
-    for (const scenegraph::ModelPrimitive& model : entity->models) {
-      const auto found = models_->models.find(modelKey(model));
-      if (found == models_->models.end()) {
-        continue;  // under way
-      }
-      if (!found->second) {
-        model_failure_ = failed_models_++ == 0 ? found->second.error() : *model_failure_;
-        continue;
-      }
-      const tf::RigidTransform pose = soundPose(model.pose);
-      const double size = glm::length(model.scale);
-      if (!tf::isFinite(pose) || glm::length(pose.translation) > kReach_m || !(size < 1e9)) {
-        ++unsound_models_;
-        continue;
-      }
-      Color color = toColor(model.color);
-      if (!model.is_color_override && !(color.a > 0.0F)) {
-        color = {};  // as sent where the mesh's own colours are meant
-      }
-      const osg::ref_ptr<osg::MatrixTransform> place =
-          new osg::MatrixTransform(osg::Matrixd::scale(model.scale.x, model.scale.y, model.scale.z) * toOsg(pose));
-      place->addChild((*found->second)->makeNode(color, model.is_color_override));
-      model_node_->addChild(place);
-      model_slots_.push_back(slot);
-      for (unsigned i = 0; (*found->second)->box().valid() && i < 8; ++i) {
-        models_box_.expandBy((*found->second)->box().corner(i) * place->getMatrix());
-      }
-    }
-  }
-}
-
 void RestParts::commit() {
-  if (has_new_models_ && models_ != nullptr) {
-    makeModels();
-    has_new_models_ = false;
-  }
+  models_.commit(entities_);
   if (has_new_lines_) {
     makeLines();
   }
@@ -324,7 +269,7 @@ void RestParts::commit() {
     makeTriangles();
   }
   if (has_new_look_) {
-    model_state_.setOpacity(opacity_);
+    models_.setOpacity(opacity_);
     for (const std::size_t i : {0U, 1U}) {
       strokes_[i].lines->setOpacity(opacity_, i == 1);
       surfaces_[i]->setOpacity(opacity_);
@@ -332,9 +277,9 @@ void RestParts::commit() {
     }
   }
   has_new_lines_ = has_new_triangles_ = has_new_look_ = false;
-  unsound_ = unsound_lines_ + unsound_triangles_ + unsound_models_;
+  unsound_ = unsound_lines_ + unsound_triangles_ + models_.unsound();
   box_ = lines_box_;
-  box_.expandBy(models_box_);
+  box_.expandBy(models_.box());
   for (const auto& surface : surfaces_) {
     box_.expandBy(surface->box());
   }
@@ -359,8 +304,8 @@ void RestParts::list(std::vector<osg::Node*>& nodes) const {
       nodes.push_back(&surfaces_[i]->node());
     }
   }
-  if (model_node_->getNumChildren() > 0) {
-    nodes.push_back(model_node_);
+  if (models_.size() > 0) {
+    nodes.push_back(&models_.node());
   }
   for (const auto& [slot, texts] : texts_) {
     nodes.push_back(texts.node);
@@ -368,7 +313,7 @@ void RestParts::list(std::vector<osg::Node*>& nodes) const {
 }
 
 std::size_t RestParts::drawCalls() const noexcept {
-  std::size_t calls = text_count_ + model_node_->getNumChildren();
+  std::size_t calls = text_count_ + models_.size();
   for (const std::size_t i : {0U, 1U}) {
     calls += (strokes_[i].is_drawn ? 1U : 0U) + (surfaces_[i]->size() > 0 ? 1U : 0U);
   }

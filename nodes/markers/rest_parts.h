@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <osg/BoundingBox>
 #include <osg/Group>
 #include <osg/MatrixTransform>
@@ -15,8 +14,7 @@
 #include <vector>
 
 #include "nodes/lines/line_drawable.h"
-#include "nodes/markers/model_shelf.h"
-#include "nodes/mesh_drawing/mesh_arrays.h"
+#include "nodes/markers/model_parts.h"
 #include "nodes/primitives/triangle_drawable.h"
 #include "nodes/text/text_maker.h"
 #include "scenegraph/objects/scene_entities.h"
@@ -24,7 +22,7 @@
 
 namespace stillframe::nodes {
 
-/// Lines, triangles and texts of the entities in one frame.
+/// Lines, triangles, texts and models of the entities in one frame.
 ///
 /// Lines share a draw call, triangles another, translucent ones two more; a change among them makes them anew, at the
 /// cost of all lines and triangles in the frame. A text is a node of its own and changes alone. GUI thread.
@@ -40,10 +38,9 @@ class RestParts {
   void setLook(double opacity, bool shows_texts);
   /// Call once after changes.
   void commit();
-  /// The meshes that there are by now; models without one are not drawn.
-  void setModels(std::shared_ptr<const ModelSet> models);
-  /// Adds those that the entities name.
-  void collectModels(WantedModels& wanted) const;
+  void setModels(std::shared_ptr<const ModelSet> models) { models_.setModels(std::move(models)); }
+  void collectModels(WantedModels& wanted) const { ModelParts::collect(entities_, wanted); }
+  [[nodiscard]] const ModelParts& models() const noexcept { return models_; }
   /// Adds the nodes to draw, in an order that does not depend on what came before.
   void list(std::vector<osg::Node*>& nodes) const;
 
@@ -61,9 +58,6 @@ class RestParts {
   [[nodiscard]] std::size_t drawCalls() const noexcept;
   /// Lines, triangles or texts left out, as their numbers make no sense or there are too many.
   [[nodiscard]] std::size_t leftOut() const noexcept { return unsound_ + texts_left_out_; }
-  /// Why the first model that is not drawn is not, and how many there are; only those whose loading has ended.
-  [[nodiscard]] std::size_t failedModels() const noexcept { return failed_models_; }
-  [[nodiscard]] const std::optional<scenegraph::Status>& modelFailure() const noexcept { return model_failure_; }
 
  private:
   /// Where the parts of each entity end in what is drawn together: a number of points or triangles, and the slot.
@@ -76,16 +70,14 @@ class RestParts {
   };
   void makeLines();
   void makeTriangles();
-  void makeModels();
   void makeTexts(std::size_t slot);
   void dropTexts(std::size_t slot);
 
   TextMaker& text_maker_;
-  std::map<std::size_t, std::shared_ptr<const scenegraph::SceneEntity>> entities_;
+  ModelParts::Entities entities_;
   std::array<Strokes, 2> strokes_;  // opaque, translucent
   std::array<std::unique_ptr<TriangleDrawable>, 2> surfaces_;
   std::array<Ends, 2> surface_ends_;
-  std::vector<std::size_t> model_slots_;  // one a child of model_node_
   struct Texts {
     osg::ref_ptr<osg::Group> node;
     osg::BoundingBoxd box;
@@ -102,14 +94,7 @@ class RestParts {
   std::size_t unsound_triangles_ = 0;
   std::size_t unsound_ = 0;
   std::size_t texts_left_out_ = 0;
-  std::size_t unsound_models_ = 0;
-  std::size_t failed_models_ = 0;
-  std::optional<scenegraph::Status> model_failure_;
-  bool has_new_models_ = false;
-  std::shared_ptr<const ModelSet> models_;
-  osg::ref_ptr<osg::Group> model_node_ = new osg::Group;
-  MeshState model_state_;
-  osg::BoundingBoxd models_box_;
+  ModelParts models_;
   osg::BoundingBoxd lines_box_;
   osg::BoundingBoxd box_;
 };

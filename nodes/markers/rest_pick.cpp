@@ -26,13 +26,9 @@ std::optional<RestParts::RestHit> RestParts::entityAt(const scenegraph::PickHit&
       return slot ? std::optional(RestHit{*slot, "triangles", scenegraph::surfacePoint(hit)}) : std::nullopt;
     }
   }
-  if (hit.isBeneath(*model_node_)) {
-    const osg::Node* const place = hit.childOf(*model_node_);
-    for (unsigned i = 0; i < model_node_->getNumChildren() && i < model_slots_.size(); ++i) {
-      if (model_node_->getChild(i) == place) {
-        return RestHit{model_slots_[i], "model", scenegraph::surfacePoint(hit)};
-      }
-    }
+  if (hit.isBeneath(models_.node())) {
+    const auto slot = models_.slotOf(hit.childOf(models_.node()));
+    return slot ? std::optional(RestHit{*slot, "model", scenegraph::surfacePoint(hit)}) : std::nullopt;
   }
   for (const auto& [slot, texts] : texts_) {
     if (hit.isBeneath(*texts.node)) {

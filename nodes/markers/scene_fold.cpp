@@ -24,7 +24,8 @@ std::size_t bytesOfRest(const SceneEntity& entity) {
     bytes += sizeof(line) + bytesOf(line.points) + bytesOf(line.colors) + bytesOf(line.indices);
   }
   for (const auto& triangles : entity.triangles) {
-    bytes += sizeof(triangles) + bytesOf(triangles.points) + bytesOf(triangles.colors) + bytesOf(triangles.indices);
+    bytes += sizeof(triangles) + bytesOf(triangles.points) + bytesOf(triangles.colors) + bytesOf(triangles.indices) +
+             bytesOf(triangles.uvs) + triangles.texture.bytes.size();
   }
   for (const auto& text : entity.texts) {
     bytes += sizeof(text) + text.text.size();
@@ -192,6 +193,8 @@ void SceneHistory::Fold::add(const SceneEntity& entity, const std::shared_ptr<co
       made->rest = std::shared_ptr<const SceneEntity>(owner, &entity);
     } else {  // one of many must not keep the others
       auto rest = std::make_shared<SceneEntity>();
+      rest->id = entity.id;
+      rest->marker_namespace = entity.marker_namespace;
       rest->lines = entity.lines;
       rest->triangles = entity.triangles;
       rest->texts = entity.texts;

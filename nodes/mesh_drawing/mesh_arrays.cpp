@@ -1,5 +1,6 @@
 #include "nodes/mesh_drawing/mesh_arrays.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -58,6 +59,7 @@ MeshArrays::MeshArrays(const MeshData& mesh) {
   }
   if (!mesh.colors.empty()) {
     colors_ = copyOf<osg::Vec4ubArray>(std::span<const std::array<std::uint8_t, 4>>(mesh.colors), true);
+    has_translucent_colors_ = std::ranges::any_of(mesh.colors, [](const auto& color) { return color[3] < 255; });
   }
   std::vector<osg::ref_ptr<osg::Texture2D>> textures;
   for (const MeshTexture& texture : mesh.textures) {
@@ -115,7 +117,7 @@ osg::ref_ptr<osg::Group> MeshArrays::makeNode(const scenegraph::Color& color, bo
       geometry->setVertexAttribArray(kUvAttribute, uvs_);
       state.setTextureAttribute(0, part.texture);
     }
-    if (alpha < 1.0F) {
+    if (alpha < 1.0F || (is_own && has_translucent_colors_)) {
       scenegraph::setBlended(state, true);
     }
     group->addChild(geometry);

@@ -18,6 +18,9 @@
 
 namespace stillframe::nodes {
 
+/// Of boxes that stand for meshes that are missing or broken.
+inline constexpr scenegraph::Color kPlaceholderColor{.r = 0.95F, .g = 0.3F, .b = 0.75F, .a = 0.45F};
+
 /// A mesh in the form that is uploaded: what robots and mesh markers hang into the graph.
 ///
 /// Made on a worker, shared by any number of nodes and views: their geometries refer to one set of buffers. Immutable
@@ -50,6 +53,7 @@ class MeshArrays {
   osg::ref_ptr<osg::Vec2Array> uvs_;       // or nullptr
   osg::ref_ptr<osg::Vec4ubArray> colors_;  // one a vertex, or nullptr
   osg::ref_ptr<osg::Vec4ubArray> white_;
+  bool has_translucent_colors_ = false;
   std::vector<Part> parts_;
   osg::BoundingBoxd box_;
   std::size_t triangles_ = 0;

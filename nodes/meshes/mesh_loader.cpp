@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "nodes/meshes/attached_folder.h"
 #include "nodes/meshes/import_process.h"
 
 namespace stillframe::nodes {
@@ -177,7 +178,7 @@ MeshLoader::Loaded MeshLoader::import(std::span<const std::byte> bytes, const st
                            .payload_bytes = bytes.size(),
                            .product = "mesh " + format + (options.use_collada_up_axis ? " up " : " ")};
   if (!isSelfContained(format)) {
-    key.product += from.file.string();
+    key.product += from.attachment ? from.attachment->name : from.file.string();
   }
   const auto named = [&](const Loaded& loaded) -> Loaded {
     const std::string name = from.attachment     ? "the attachment '" + from.attachment->name + "'"
@@ -190,10 +191,12 @@ MeshLoader::Loaded MeshLoader::import(std::span<const std::byte> bytes, const st
   }
   Loaded loaded = fail("MeshUnreadable", "of what format it is cannot be told");
   if (!format.empty()) {
+    const AttachedFolder folder =
+        from.attachment && !isSelfContained(format) ? finder_.folderOf(*from.attachment) : AttachedFolder{};
     auto mesh = importInProcess({.bytes = bytes,
                                  .format = format,
-                                 .file = from.file,
-                                 .within = from.within,
+                                 .file = folder.path().empty() ? from.file : folder.fileOf(*from.attachment),
+                                 .within = folder.path().empty() ? from.within : folder.path(),
                                  .use_collada_up_axis = options.use_collada_up_axis,
                                  .limits = importLimits(bytes.size())});
     loaded = mesh ? Loaded(std::make_shared<const MeshData>(std::move(*mesh))) : std::unexpected(mesh.error());

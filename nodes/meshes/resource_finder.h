@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "nodes/meshes/attached_folder.h"
 #include "scenegraph/status.h"
 #include "scenegraph/store/resources.h"
 
@@ -37,6 +38,10 @@ class ResourceFinder {
   /// "PathEscapesPackage", "UnsupportedUri".
   [[nodiscard]] std::expected<FoundResource, scenegraph::Status> find(std::string_view uri,
                                                                       const std::filesystem::path& named_by = {}) const;
+  /// What came with the recording beside `attachment`, as files: a mesh may refer to materials and pictures.
+  [[nodiscard]] AttachedFolder folderOf(const scenegraph::Resources::Attachment& attachment) const {
+    return {attachments_, attachment};
+  }
 
  private:
   [[nodiscard]] std::optional<scenegraph::Resources::Attachment> findAttachment(std::string_view path,

@@ -19,7 +19,6 @@ namespace {
 
 constexpr std::size_t kMostNamedFaults = 3;
 constexpr std::size_t kMostLinkRows = 500;  // a longer list is no list: the command line still reaches every link
-constexpr scenegraph::Color kPlaceholderColor{.r = 0.95F, .g = 0.3F, .b = 0.75F, .a = 0.45F};
 
 std::vector<std::filesystem::path> pathsOf(const std::string& text) {
   std::vector<std::filesystem::path> paths;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 #include <utility>
@@ -63,6 +64,9 @@ struct TrianglePrimitive {
   EntityColor color;
   std::vector<EntityColor> colors;
   std::vector<std::uint32_t> indices;  ///< triples; empty: every three points
+  std::vector<glm::vec2> uvs = {};     ///< ROS: one a point, (0, 0) is the picture's upper left; empty: no texture
+  std::string texture_url = {};        ///< where the picture is, unless it comes along
+  Payload texture = {};                ///< PNG or JPEG
 };
 /// ROS POINTS: squares of width_m x height_m that face the viewer.
 struct PointsPrimitive {

@@ -8,6 +8,7 @@
 
 #include "scenegraph/export/osgt_export.h"
 #include "scenegraph/objects/scene_entities.h"
+#include "tests/nodes/markers/marker_builder.h"
 #include "tests/nodes/scene_picture.h"
 #include "tests/support/golden.h"
 #include "tests/support/plain_viewer.h"
@@ -15,43 +16,13 @@
 namespace stillframe::test {
 namespace {
 
-using scenegraph::EntityColor;
 using scenegraph::LineType;
 using scenegraph::ObjectType;
 using scenegraph::SceneEntities;
 using scenegraph::SceneEntity;
 using testing::HasSubstr;
 
-constexpr EntityColor kRed{0.8F, 0.2F, 0.1F, 1.0F};
-constexpr EntityColor kGreen{0.0F, 1.0F, 0.0F, 1.0F};
-constexpr EntityColor kWhite{};
 constexpr scenegraph::Color kBackground{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
-
-tf::RigidTransform at(double x, double y, double z = 0.0) { return {.translation = {x, y, z}}; }
-
-SceneEntity entityIn(const std::string& frame, const std::string& id, const std::string& marker_namespace = "") {
-  SceneEntity entity;
-  entity.frame_id = frame;
-  entity.id = id;
-  entity.marker_namespace = marker_namespace;
-  entity.is_frame_locked = true;
-  return entity;
-}
-
-SceneEntity cube(const std::string& id, double x, double y, const EntityColor& color, double size = 2.0) {
-  SceneEntity entity = entityIn("map", id, id);
-  entity.cubes.push_back({.pose = at(x, y), .size = glm::dvec3(size), .color = color});
-  return entity;
-}
-
-SceneEntities sceneOf(std::vector<SceneEntity> entities) {
-  SceneEntities scene;
-  for (SceneEntity& entity : entities) {
-    scene.steps.push_back({false, scene.entities.size()});
-    scene.entities.push_back(std::move(entity));
-  }
-  return scene;
-}
 
 /// One of everything, in rows.
 SceneEntities everything() {
@@ -134,15 +105,6 @@ SceneEntities everything() {
                        .color = {1, 0.9F, 0.3F, 1},
                        .text = "15 px \u2192 \u03b1\u03b2"});
   return sceneOf({std::move(all)});
-}
-
-std::shared_ptr<scenegraph::Dataset> datasetOf(SceneEntities scene, const tf::RigidTransform& map_from_base = {}) {
-  return DatasetBuilder()
-      .topic("/tf", ObjectType::FrameTransforms)
-      .transform(0, "map", "base", map_from_base)
-      .topic("/markers", ObjectType::SceneEntities)
-      .at(1_s, std::move(scene))
-      .build();
 }
 
 scenegraph::CameraView fromTheSide(const glm::dvec3& place = {0, 0, 0}) {
@@ -243,38 +205,6 @@ TEST_F(MarkerPicture, DrawsAHundredThousandInOneCallAndOneChangeInPlace) {
                                 {"entities", 100'000}, {"primitives", 100'000}, {"hidden", 0}, {"draw_calls", 1}}));
   EXPECT_EQ(pixel(draw(2_s, fromAbove()), 195, 5), (Bytes3{0, 255, 0}));
   EXPECT_EQ(layer.counts()[3].second, 1U);
-}
-
-TEST_F(MarkerPicture, DrawsEmbeddedMeshesAndNamesTheMissingOne) {
-  const auto stl = std::make_shared<const std::string>(
-      "solid s\n"
-      "facet normal 0 0 1 outer loop vertex -0.5 -0.5 0 vertex 0.5 -0.5 0 vertex 0.5 0.5 0 endloop endfacet\n"
-      "facet normal 0 0 1 outer loop vertex -0.5 -0.5 0 vertex 0.5 0.5 0 vertex -0.5 0.5 0 endloop endfacet\n"
-      "endsolid s\n");
-  SceneEntity entity = entityIn("map", "models");
-  scenegraph::ModelPrimitive square{.pose = at(5, 5),
-                                    .scale = {2, -2, 2},
-                                    .color = kGreen,
-                                    .is_color_override = true,
-                                    .url = "",
-                                    .media_type = "model/stl",
-                                    .data = {std::as_bytes(std::span(*stl)), stl}};
-  entity.models.push_back(square);
-  open(datasetOf(sceneOf({entity})), "map");
-  const auto& layer = add("/markers");
-  const auto picture = draw(1_s, fromAbove());
-  EXPECT_EQ(layer.status(), scenegraph::Status{}) << layer.status().message;
-  EXPECT_EQ(pixel(picture, 150, 50), (Bytes3{0, 255, 0}));
-  EXPECT_EQ(drawnPixels(picture), 400);
-
-  square.data = {};
-  square.url = "package://nowhere/at_all.stl";
-  entity.models.push_back(square);
-  open(datasetOf(sceneOf({entity})), "map");
-  const auto& other = add("/markers");
-  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 400);
-  EXPECT_EQ(other.status().code, "UnknownPackage");
-  EXPECT_THAT(other.status().message, HasSubstr("1 model not drawn"));
 }
 
 TEST_F(MarkerPicture, SaysWhatItDoesNotDraw) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
 
 #include "nodes/meshes/mesh_loader.h"
@@ -124,6 +125,43 @@ TEST_F(MeshFormats, WhatIsNoMeshSaysWhy) {
   EXPECT_EQ(load("hello", "").error().code, "MeshUnreadable");
   EXPECT_EQ(load("hello", "obj").error().code, "MeshUnreadable");
   EXPECT_NE(load("v 0 0 0\nv 1 1 1\nl 1 2\n", "obj").error().message.find("no triangles"), std::string::npos);
+}
+
+/// An attachment of a recording, in memory.
+scenegraph::Resources::Attachment attached(const std::string& name, std::string_view text) {
+  return {.name = name, .media_type = "", .bytes = text.size(), .read = [text] {
+            return scenegraph::Payload{bytesOf(text), nullptr};
+          }};
+}
+
+TEST_F(MeshFormats, AttachedMeshesFindTheFilesThatAreAttachedBesideThem) {
+  resources_.addAttachment(attached("package://arm/meshes/t.mtl", test::kMtl));
+  resources_.addAttachment(attached("package://arm/meshes/t.obj", test::kObj));
+  resources_.addAttachment(attached("package://arm/../../../../etc/evil.mtl", test::kMtl));
+  const MeshLoader loader(cache_, resources_);
+  const auto mesh = loader.load("package://arm/meshes/t.obj");
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ((*mesh)->remarks, "");
+  const auto& material = (*mesh)->materials[(*mesh)->submeshes[0].material];
+  EXPECT_EQ(material.color, (std::array<float, 4>{1.0F, 0.0F, 0.2F, 0.5F}));
+  for (const auto& left : std::filesystem::directory_iterator(std::filesystem::temp_directory_path())) {
+    EXPECT_FALSE(left.path().filename().string().starts_with("stillframe-mesh-") && left.is_directory() &&
+                 std::filesystem::exists(left.path() / "arm/meshes/t.mtl"))
+        << left.path();
+  }
+}
+
+TEST_F(MeshFormats, AttachedMeshesOfOneContentMayHaveDifferentFilesBesideThem) {
+  resources_.addAttachment(attached("one/t.obj", test::kObj));
+  resources_.addAttachment(attached("two/t.obj", test::kObj));
+  resources_.addAttachment(attached("one/t.mtl", test::kMtl));
+  resources_.addAttachment(attached("two/t.mtl", "newmtl red\nKd 0 1 0\n"));
+  const MeshLoader loader(cache_, resources_);
+  const auto one = loader.load("one/t.obj");
+  const auto two = loader.load("two/t.obj");
+  ASSERT_TRUE(one && two);
+  EXPECT_EQ((*one)->materials[(*one)->submeshes[0].material].color[0], 1.0F);
+  EXPECT_EQ((*two)->materials[(*two)->submeshes[0].material].color[1], 1.0F);
 }
 
 }  // namespace

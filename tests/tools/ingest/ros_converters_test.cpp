@@ -210,6 +210,39 @@ TEST(RosMarker, TrianglesAreScaledAndColoursByTriangleSpread) {
   EXPECT_EQ(scene.entities[0].triangles[0].colors.size(), 3u);
 }
 
+TEST(RosMarker, TexturesNeedACoordinateForEachPointAndBytesComeWithEmbeddedOnes) {
+  converters::MarkerRow marker;
+  marker.type = 11;
+  marker.points = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+  marker.uvs = {{0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}};
+  const std::vector<std::byte> picture(8, std::byte{1});
+  marker.texture_data = picture;
+  EXPECT_TRUE(sceneOf(marker).entities[0].triangles[0].uvs.empty()) << "no resource: no texture";
+  marker.texture_resource = "embedded://poster";
+  const auto embedded = sceneOf(marker).entities[0].triangles[0];
+  EXPECT_EQ(embedded.uvs.size(), 3u);
+  EXPECT_EQ(embedded.texture.bytes.size(), 8u);
+  marker.texture_resource = "package://posters/poster.png";
+  const auto named = sceneOf(marker).entities[0].triangles[0];
+  EXPECT_EQ(named.texture_url, "package://posters/poster.png");
+  EXPECT_TRUE(named.texture.bytes.empty());
+  marker.uvs.pop_back();
+  EXPECT_TRUE(sceneOf(marker).entities[0].triangles[0].uvs.empty());
+}
+
+TEST(RosMarker, EmbeddedMeshesTellTheirFormatByTheNameOfTheirFile) {
+  converters::MarkerRow marker;
+  marker.type = 10;
+  const std::vector<std::byte> mesh(8, std::byte{1});
+  marker.mesh_resource = "embedded://chair";
+  marker.mesh_filename = "chair.v2.obj";
+  marker.mesh_data = mesh;
+  const auto scene = sceneOf(marker);
+  ASSERT_EQ(scene.entities[0].models.size(), 1u);
+  EXPECT_EQ(scene.entities[0].models[0].media_type, "obj");
+  EXPECT_EQ(scene.entities[0].models[0].data.bytes.size(), 8u);
+}
+
 TEST(RosString, IsARobotOnlyWhereTheTopicSaysSo) {
   const SchemaRecord schema{1, "std_msgs/msg/String", "ros2msg", "string data\n"};
   const auto type = [&](std::string_view topic) { return makeDecoder(&schema, "cdr", topic).type; };

@@ -130,13 +130,27 @@ void addArrows(const MarkerRow& marker, SceneEntity& out) {
   }
 }
 
-void addTriangles(MarkerRow& marker, SceneEntity& out) {
+/// The ending of a file's name, which tells the format of its bytes.
+std::string endingOf(std::string_view file) {
+  const std::size_t dot = file.rfind('.');
+  return dot == std::string_view::npos ? std::string() : std::string(file.substr(dot + 1));
+}
+
+void addTriangles(MarkerRow& marker, const MessageView& payloads, SceneEntity& out) {
   scenegraph::TrianglePrimitive& triangles = out.triangles.emplace_back();
   triangles.pose = marker.pose;
   triangles.color = marker.color;
   triangles.points = std::move(marker.points);
   for (glm::dvec3& point : triangles.points) {
     point *= marker.scale;  // RViz scales the vertices
+  }
+  // As RViz: without as many coordinates as points there is no texture.
+  if (!marker.texture_resource.empty() && marker.uvs.size() == triangles.points.size()) {
+    triangles.uvs = std::move(marker.uvs);
+    triangles.texture_url = marker.texture_resource;
+    if (!marker.texture_data.empty() && marker.texture_resource.starts_with("embedded://")) {
+      triangles.texture = payloadOf(marker.texture_data, payloads);
+    }
   }
   if (marker.colors.size() == triangles.points.size()) {
     triangles.colors = std::move(marker.colors);
@@ -196,11 +210,12 @@ void addPrimitives(MarkerRow& marker, const MessageView& payloads, SceneEntity& 
       break;
     case Mesh:
       out.models.push_back({marker.pose, marker.scale, marker.color, !marker.has_embedded_materials,
-                            std::string(marker.mesh_resource), "",
+                            std::string(marker.mesh_resource),
+                            marker.mesh_data.empty() ? "" : endingOf(marker.mesh_filename),
                             marker.mesh_data.empty() ? scenegraph::Payload{} : payloadOf(marker.mesh_data, payloads)});
       break;
     case TriangleList:
-      addTriangles(marker, out);
+      addTriangles(marker, payloads, out);
       break;
     default:
       break;

@@ -27,9 +27,13 @@ struct MarkerRow {
   bool is_frame_locked = false;
   std::vector<glm::dvec3> points;
   std::vector<scenegraph::EntityColor> colors;
+  std::vector<glm::vec2> uvs;
+  std::string_view texture_resource;
+  std::span<const std::byte> texture_data;
   std::string_view text;
   std::string_view mesh_resource;
   std::span<const std::byte> mesh_data;
+  std::string_view mesh_filename;
   bool has_embedded_materials = false;
 };
 

@@ -12,6 +12,12 @@ struct MarkersRow {
   std::vector<MarkerRow> markers;
 };
 
+Shape uvShape() {
+  Shape shape;
+  shape.field<&glm::vec2::x>("u").field<&glm::vec2::y>("v");
+  return shape;
+}
+
 Shape markerShape() {
   Shape shape;
   shape.field<&MarkerRow::stamp>("header.stamp")
@@ -28,9 +34,17 @@ Shape markerShape() {
       .optional()
       .rows<&MarkerRow::points>("points", vectorShape())
       .rows<&MarkerRow::colors>("colors", colorShape())
+      .field<&MarkerRow::texture_resource>("texture_resource")  // since ROS 2 Humble, as uv_coordinates and mesh_file
+      .optional()
+      .field<&MarkerRow::texture_data>("texture.data")
+      .optional()
+      .rows<&MarkerRow::uvs>("uv_coordinates", uvShape())
+      .optional()
       .field<&MarkerRow::text>("text")
       .field<&MarkerRow::mesh_resource>("mesh_resource")
-      .field<&MarkerRow::mesh_data>("mesh_file.data")  // since ROS 2 Humble
+      .field<&MarkerRow::mesh_filename>("mesh_file.filename")
+      .optional()
+      .field<&MarkerRow::mesh_data>("mesh_file.data")
       .optional()
       .field<&MarkerRow::has_embedded_materials>("mesh_use_embedded_materials")
       .optional();

@@ -64,6 +64,8 @@ void PoseShapes::clear() {
     line_.reset();
     line_place_ = nullptr;
   }
+  parent_.removeChild(label_);
+  label_ = nullptr;
   box_.init();
   shapes_ = segments_ = 0;
   stride_ = 1;
@@ -84,6 +86,9 @@ void PoseShapes::build(const PoseSet& shown, const PoseTrail* trail, const Poses
   }
   if (settings.covariance && shown.source().covariance) {
     buildCovariance(shown, settings);
+  }
+  if (settings.child_label && !shown.source().child_frame_id.empty()) {
+    buildLabel(shown, settings);
   }
 }
 
@@ -304,6 +309,19 @@ void PoseShapes::buildCovariance(const PoseSet& poses, const PosesSettings& sett
   } else {
     covariance_.rotation = spread.error();
   }
+}
+
+void PoseShapes::buildLabel(const PoseSet& poses, const PosesSettings& settings) {
+  const auto at = poses.point(0);
+  if (!at) {
+    return;
+  }
+  Color color{.r = 1.0F, .g = 1.0F, .b = 1.0F, .a = 1.0F};
+  color.a *= static_cast<float>(settings.opacity);
+  label_ = new osg::MatrixTransform(osg::Matrixd::translate(toOsg(*at)));
+  label_->addChild(texts_.make(poses.source().child_frame_id, {.height = 14.0, .color = color}));
+  parent_.addChild(label_);
+  box_.expandBy(toOsg(*at));
 }
 
 }  // namespace stillframe::nodes

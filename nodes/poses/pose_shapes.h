@@ -14,6 +14,7 @@
 #include "nodes/poses/pose_trail.h"
 #include "nodes/poses/poses_settings.h"
 #include "nodes/primitives/instanced_mesh.h"
+#include "nodes/text/text_maker.h"
 
 namespace stillframe::nodes {
 
@@ -24,8 +25,8 @@ struct CovarianceReport {
   int unbounded_axes = 0;                   ///< of the ellipsoid, left out: they say "unknown"
 };
 
-/// The nodes of one layer of poses: copies of arms, arrows and spheres, a line, a fill, an ellipsoid and a cone; each
-/// is there only when something is drawn with it. GUI thread.
+/// The nodes of one layer of poses: copies of arms, arrows and spheres, a line, a fill, an ellipsoid and a cone, a
+/// name; each is there only when something is drawn with it. GUI thread.
 class PoseShapes {
  public:
   /// Hangs its nodes beneath `parent`, which outlives it.
@@ -70,12 +71,15 @@ class PoseShapes {
   void buildLine(const PoseSet& poses, const PosesSettings& settings);
   void buildFill(const PoseSet& polygon, const PosesSettings& settings);
   void buildCovariance(const PoseSet& poses, const PosesSettings& settings);
+  void buildLabel(const PoseSet& poses, const PosesSettings& settings);
   void hang(const TriangleMesh& mesh, const char* name, const glm::dvec3& origin, const Copies& copies);
 
   osg::MatrixTransform& parent_;
   std::vector<std::unique_ptr<InstancedMesh>> meshes_;
   std::optional<LineDrawable> line_;
   osg::ref_ptr<osg::MatrixTransform> line_place_;
+  TextMaker texts_;
+  osg::ref_ptr<osg::MatrixTransform> label_;
   osg::BoundingBoxd box_;
   std::size_t shapes_ = 0;
   std::size_t segments_ = 0;

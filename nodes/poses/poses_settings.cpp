@@ -52,7 +52,12 @@ Table shapeRows() {
             .kind = SettingKind::Int,
             .minimum = 1,
             .maximum = 1e6},
-           &S::max_shapes}};
+           &S::max_shapes},
+          {{.key = "child_label",
+            .label = "Name of the child frame",
+            .help = "At the pose of an odometry, the frame that it is of.",
+            .kind = SettingKind::Bool},
+           &S::child_label}};
 }
 
 Table lineRows() {

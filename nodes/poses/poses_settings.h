@@ -17,6 +17,7 @@ struct PosesSettings : ValueColoring {
   double radius_m = 0.1;
   double opacity = 1.0;
   std::int64_t max_shapes = 100'000;
+  bool child_label = false;
 
   std::string line = "auto";
   double line_width = 2.0;

@@ -17,7 +17,7 @@ enum class PosesKind : std::uint8_t {
   Array,    ///< geometry_msgs/PoseArray, foxglove.PosesInFrame
   Path,     ///< nav_msgs/Path: a line through the poses in order
   Single,   ///< PoseStamped, PoseWithCovarianceStamped, Odometry, foxglove.PoseInFrame
-  Point,    ///< geometry_msgs/PointStamped
+  Point,    ///< geometry_msgs/PointStamped, foxglove.Point3InFrame
   Polygon,  ///< geometry_msgs/PolygonStamped: a closed line
 };
 

@@ -357,5 +357,21 @@ TEST_F(PosesPicture, TrailsDoNotDependOnThePath) {
   }
 }
 
+TEST_F(PosesPicture, NamesTheChildFrameOfAnOdometryWhenAsked) {
+  PosesInFrame odometry;
+  odometry.frame_id = "map";
+  odometry.kind = PosesKind::Single;
+  odometry.poses = {{.translation = {0, 0, 0}}};
+  odometry.child_frame_id = "base_link";
+  const auto plain = drawnPixels(drawPoses(odometry, {{"shape", "none"}}));
+  EXPECT_EQ(plain, 0);
+  const auto picture = drawPoses(odometry, {{"shape", "none"}, {"child_label", "true"}});
+  EXPECT_GT(drawnPixels(picture), 100);
+  const auto [width, height] = extent(picture);
+  EXPECT_GT(width, 3 * height);
+  odometry.child_frame_id = "";
+  EXPECT_EQ(drawnPixels(drawPoses(odometry, {{"shape", "none"}, {"child_label", "true"}})), 0);
+}
+
 }  // namespace
 }  // namespace stillframe::test

@@ -37,6 +37,7 @@ message LaserScan { google.protobuf.Timestamp timestamp = 1; string frame_id = 2
 message LinePrimitive { enum Type { STRIP = 0; LOOP = 1; LIST = 2; } Type type = 1; Pose pose = 2;
   double thickness = 3; bool scale_invariant = 4; repeated Vector3 points = 5; Color color = 6;
   repeated Color colors = 7; repeated fixed32 indices = 8; }
+message Point3InFrame { google.protobuf.Timestamp timestamp = 1; string frame_id = 2; Vector3 point = 3; }
 message Deletion { google.protobuf.Timestamp timestamp = 1; int32 type = 2; string id = 3; }
 )";
 
@@ -71,6 +72,20 @@ TEST(FoxgloveProtobuf, AbsentPosesAreIdentity) {
   ASSERT_NE(cloud, nullptr);
   EXPECT_EQ(cloud->pose.rotation.w, 1.0);
   EXPECT_EQ(cloud->width, 0u) << "a stride of 0 holds no points";
+}
+
+TEST(FoxgloveProtobuf, PointsInFramesArePosesWithoutARotation) {
+  test::ProtoWriter writer(kFoxglove);
+  const auto bytes =
+      writer.message("foxglove.Point3InFrame", R"(timestamp { seconds: 2 } frame_id: "/tip" point { x: 1 y: 2 z: 3 })");
+  const auto poses =
+      decoded(writer.schema("foxglove.Point3InFrame"), "protobuf", bytes).get<scenegraph::PosesInFrame>();
+  ASSERT_NE(poses, nullptr);
+  EXPECT_EQ(poses->kind, scenegraph::PosesKind::Point);
+  EXPECT_EQ(poses->frame_id, "tip");
+  EXPECT_EQ(poses->stamp.ns, 2'000'000'000);
+  ASSERT_EQ(poses->poses.size(), 1u);
+  EXPECT_EQ(poses->poses[0].translation, glm::dvec3(1.0, 2.0, 3.0));
 }
 
 TEST(FoxgloveProtobuf, ScansGoEvenlyFromStartToEnd) {
@@ -132,7 +147,8 @@ TEST(FoxgloveProtobuf, RefusesWrongDescriptors) {
 TEST(FoxgloveProtobuf, BoundsWhatAMessageOfNothingCanBecome) {
   // A scene of entities without content: two bytes each, some hundred in memory.
   test::ProtoWriter writer(R"(syntax = "proto3"; package foxglove; import "google/protobuf/timestamp.proto";
-    message Empty {} message Deletion { google.protobuf.Timestamp timestamp = 1; int32 type = 2; string id = 3; }
+    message Empty {} message Point3InFrame { google.protobuf.Timestamp timestamp = 1; string frame_id = 2; Vector3 point = 3; }
+message Deletion { google.protobuf.Timestamp timestamp = 1; int32 type = 2; string id = 3; }
     message Vector3 { double x = 1; double y = 2; double z = 3; }
     message Quaternion { double x = 1; double y = 2; double z = 3; double w = 4; }
     message Pose { Vector3 position = 1; Quaternion orientation = 2; }

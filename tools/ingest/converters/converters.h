@@ -46,6 +46,7 @@ Created foxgloveCompressedImage(const SchemaRecord& schema, std::string_view mes
 Created foxgloveCameraCalibration(const SchemaRecord& schema, std::string_view message_encoding);
 Created foxglovePoses(const SchemaRecord& schema, std::string_view message_encoding);
 Created foxglovePose(const SchemaRecord& schema, std::string_view message_encoding);
+Created foxglovePoint(const SchemaRecord& schema, std::string_view message_encoding);
 Created foxgloveScene(const SchemaRecord& schema, std::string_view message_encoding);
 Created hostTransforms(const SchemaRecord& schema, std::string_view message_encoding);
 Created hostPointCloud(const SchemaRecord& schema, std::string_view message_encoding);

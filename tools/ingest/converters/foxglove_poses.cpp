@@ -1,4 +1,4 @@
-// foxglove.PosesInFrame, PoseInFrame, FrameTransform and FrameTransforms, in protobuf, JSON and ROS.
+// foxglove.PosesInFrame, PoseInFrame, Point3InFrame, FrameTransform and FrameTransforms, in protobuf, JSON and ROS.
 #include "scenegraph/objects/frame_transforms.h"
 #include "scenegraph/objects/poses.h"
 #include "tools/ingest/converters/converters.h"
@@ -59,6 +59,20 @@ Created foxglovePose(const SchemaRecord& schema, std::string_view message_encodi
   return Decoder::create(schema, message_encoding, shape,
                          [](FoxglovePoseRow& row, const MessageView&) -> Decoder::Result {
                            row.object.kind = scenegraph::PosesKind::Single;
+                           row.object.poses = {row.pose};
+                           return finished(std::move(row.object));
+                         });
+}
+
+Created foxglovePoint(const SchemaRecord& schema, std::string_view message_encoding) {
+  Shape shape;
+  shape.field<&FoxglovePoseRow::object, &PosesInFrame::stamp>("timestamp")
+      .field<&FoxglovePoseRow::object, &PosesInFrame::frame_id>("frame_id")
+      .row<&FoxglovePoseRow::pose, &RigidTransform::translation>("point", vectorShape());
+  using Decoder = RowDecoder<FoxglovePoseRow>;
+  return Decoder::create(schema, message_encoding, shape,
+                         [](FoxglovePoseRow& row, const MessageView&) -> Decoder::Result {
+                           row.object.kind = scenegraph::PosesKind::Point;
                            row.object.poses = {row.pose};
                            return finished(std::move(row.object));
                          });

@@ -182,6 +182,7 @@ Result<void> runBench(const BenchOptions& options) {
   benchCodecs(results);
   benchGrids(results);
   benchMarkers(results);
+  benchMessages(results);
   benchRobot(results);
   benchVoxels(results);
   benchPoses(results);

@@ -58,6 +58,8 @@ void benchPoses(std::vector<BenchResult>& results);
 void benchSensors(std::vector<BenchResult>& results);
 /// Ticks of a topic of markers of which few change.
 void benchMarkers(std::vector<BenchResult>& results);
+/// Messages of markers and poses, from their bytes to what is drawn, beside memory copy.
+void benchMessages(std::vector<BenchResult>& results);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
 

@@ -5,6 +5,7 @@
 
 #include "nodes/images/depth_map.h"
 #include "nodes/points/record_fields.h"
+#include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
 
@@ -30,6 +31,7 @@ void DepthImageLayer::open(const scenegraph::LayerContext& context) {
   camera_.emplace(context, topic());
   color_.emplace(context, topic());
   geometry_ = addGeometry(state_.stateSet());
+  geometry_->setNodeMask(scenegraph::kOpaquePoints);
 }
 
 void DepthImageLayer::close() {

@@ -36,7 +36,8 @@ std::expected<CloudPoints, scenegraph::Status> CloudPoints::make(std::shared_ptr
                                                                  const CloudSupplement& supplement) {
   CloudPoints points;
   points.supplement_ = supplement;
-  points.positions_ = makeArray<osg::Vec3Array>(0);
+  points.positions_ = new scenegraph::BoxedPoints;
+  points.positions_->setVertexBufferObject(new osg::VertexBufferObject);
   auto converted = convertCloud(*cloud, [&](std::size_t floats) {
     points.positions_->resize(floats / 3);
     return points.positions_->front().ptr();
@@ -47,6 +48,7 @@ std::expected<CloudPoints, scenegraph::Status> CloudPoints::make(std::shared_ptr
   }
   points.converted_ = std::move(*converted);
   points.positions_->resize(points.converted_.points);
+  points.positions_->findBoxes();
   points.channels_ = listChannels(*cloud);
   points.color_source_ = findColors(*cloud);
   points.cloud_ = std::move(cloud);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <utility>
 
@@ -106,14 +107,17 @@ std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const
   pipeline_->setBackground(options.background);
   pipeline_->setPointWay(options.points);
   pipeline_->setMostSorted(options.most_sorted);
+  pipeline_->setPointLimits(options.point_limits);
   pipeline_->setPostChain(options.post);
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t cpu_start = std::clock();
   const auto drawn = pipeline_->renderLinear(options.width, options.height);
   if (!drawn) {
     return std::unexpected(drawn.error());
   }
   glFinish();
   statistics_.frame_ms = millisecondsSince(start);
+  statistics_.cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
   statistics_.passes = pipeline_->passes();
   statistics_.points = pipeline_->pointProgress();
   statistics_.samples = pipeline_->samples();

@@ -35,14 +35,16 @@ struct RenderOptions {
   PostChain post = {};
   PointWay points = PointWay::Auto;  ///< who draws opaque points
   int most_sorted = kMostSorted;     ///< blended fragments of a sample that are put in order (ViewPipeline)
+  PointLimits point_limits = {};     ///< how many of them, where that is not OpenGL
 };
 
 /// What the last render() did and took, in milliseconds of wall time with the GPU drained.
 struct FrameStatistics {
   double frame_ms = 0.0;      ///< culling and drawing
+  double cpu_ms = 0.0;        ///< of all threads of the process meanwhile
   double read_back_ms = 0.0;  ///< from the target into the Picture
   std::vector<std::string> passes;
-  std::optional<PointProgress> points;  ///< where the CPU drew them
+  std::optional<PointProgress> points;  ///< where OpenGL did not draw them as primitives
   int samples = 1;                      ///< of multisampling, a pixel
 };
 

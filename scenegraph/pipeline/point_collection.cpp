@@ -6,6 +6,7 @@
 #include <osg/Transform>
 
 #include "scenegraph/geometry.h"
+#include "scenegraph/pipeline/boxed_points.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -21,6 +22,7 @@ class Uniforms {
     const osg::Uniform* const uniform = state_.getUniform(name);
     return uniform != nullptr && uniform->get(value) ? value : otherwise;
   }
+  [[nodiscard]] bool has(const char* name) const { return state_.getUniform(name) != nullptr; }
   [[nodiscard]] glm::vec3 color(const char* name) const {
     const auto value = get(name, osg::Vec3());
     return {value.x(), value.y(), value.z()};
@@ -40,6 +42,12 @@ class Uniforms {
   const osg::StateSet& state_;
 };
 
+const osg::FloatArray* valuesOf(const osg::Geometry& geometry) {
+  return dynamic_cast<const osg::FloatArray*>(geometry.getVertexAttribArray(kPointValueAttribute));
+}
+
+std::span<const float> spanOf(const osg::FloatArray& array) { return {array.asVector().data(), array.size()}; }
+
 PointColors colorsOf(const osg::Geometry& geometry, const Uniforms& uniforms) {
   PointColors made;
   made.mode = static_cast<PointColors::Mode>(uniforms.get("u_color_mode", 0));
@@ -50,9 +58,8 @@ PointColors colorsOf(const osg::Geometry& geometry, const Uniforms& uniforms) {
       made.rgba = {static_cast<const std::uint8_t*>(bytes->getDataPointer()), bytes->size() * 4};
     }
   } else if (made.mode == PointColors::Mode::Value) {
-    if (const auto* const values =
-            dynamic_cast<const osg::FloatArray*>(geometry.getVertexAttribArray(kPointValueAttribute))) {
-      made.values = {values->asVector().data(), values->size()};
+    if (const osg::FloatArray* const values = valuesOf(geometry)) {
+      made.values = spanOf(*values);
     }
     const auto map = uniforms.get("u_value", osg::Vec2());
     made.value_map = {map.x(), map.y()};
@@ -101,8 +108,21 @@ class PointCollector : public osg::NodeVisitor {
       batch.size *= 0.5F * static_cast<float>(height_px_) * static_cast<float>(clip_from_eye_(1, 1));
     }
     batch.is_round = uniforms.get("u_round_points", false);
+    if (uniforms.has("u_unit")) {
+      const osg::FloatArray* const depths = valuesOf(geometry);
+      if (depths == nullptr || depths->size() != vertices->size()) {
+        return;
+      }
+      batch.depths = spanOf(*depths);
+      batch.unit = uniforms.get("u_unit", 1.0F);
+      batch.farthest = uniforms.get("u_max_depth", 0.0F);
+    } else if (const auto* const boxed = dynamic_cast<const BoxedPoints*>(vertices)) {
+      batch.boxes = boxed->boxes();
+    }
     collected.batches.push_back(batch);
-    collected.arrays.emplace_back(vertices);
+    collected.arrays.push_back({.positions = vertices,
+                                .rgba = geometry.getColorArray(),
+                                .values = geometry.getVertexAttribArray(kPointValueAttribute)});
     collected.colors.push_back(colorsOf(geometry, uniforms));
     collected.paths.push_back(getNodePath());
     collected.count += vertices->size();

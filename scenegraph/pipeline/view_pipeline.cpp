@@ -12,6 +12,7 @@
 #include "scenegraph/buffer_patches.h"
 #include "scenegraph/geometry.h"
 #include "scenegraph/osg_matrix.h"
+#include "scenegraph/pipeline/compute_points.h"
 #include "scenegraph/pipeline/gl_context_info.h"
 #include "scenegraph/pipeline/gl_target.h"
 #include "scenegraph/pipeline/id_hits.h"
@@ -24,6 +25,8 @@ namespace {
 
 /// OpenGL in software takes some 300 ns a point; the CPU, before it draws any, some 10 ns a pixel.
 constexpr double kPointsAPixelThatPay = 1.0 / 30.0;
+/// A GPU draws fewer as primitives in a millisecond or two.
+constexpr std::size_t kPointsThatPayOnAGpu = 1'000'000;
 constexpr double kMostPixels = 1 << 24;  // at 20 bytes each
 
 }  // namespace
@@ -45,10 +48,11 @@ struct ViewPipeline::Impl {
   bool presents = false;
   int most_sorted = kMostSorted;
   PointWay point_way = PointWay::Auto;
-  double point_budget_ms = std::numeric_limits<double>::infinity();
+  PointLimits point_limits;
   bool is_software = false;
   osg::ref_ptr<osg::Group> content;         // the root, and the picture of the points
   std::unique_ptr<PointStage> point_stage;  // none before there are points for it
+  PointWay stage_way = PointWay::OpenGl;    // whose it is
   std::optional<PointProgress> point_progress;
   std::unique_ptr<IdPass> id_pass;  // none before something is picked
   bool is_chain_new = false;        // setPostChain() needs no context, the next draw() has one
@@ -59,7 +63,9 @@ struct ViewPipeline::Impl {
   std::expected<void, Status> makeStages();
   void dropStages();
   void adoptGlState();
+  [[nodiscard]] PointWay wayOf(const PointCollection& points) const;
   void drawPoints();
+  void dropPoints();
   [[nodiscard]] GLuint textureId(const std::string& target) const;
   std::expected<void, Status> checkTargets() const;
   std::expected<void, Status> draw(std::uint32_t output_fbo, int width, int height, bool present);
@@ -159,30 +165,56 @@ std::expected<void, Status> ViewPipeline::Impl::checkTargets() const {
                                     std::to_string(status) + ")"});
 }
 
+/// Who is to draw them, when it is not for OpenGL in any case.
+PointWay ViewPipeline::Impl::wayOf(const PointCollection& points) const {
+  if (points.count == 0 || point_way != PointWay::Auto) {
+    return points.count == 0 ? PointWay::OpenGl : point_way;
+  }
+  const double pixels = static_cast<double>(width_px) * height_px;
+  if (pixels > kMostPixels) {
+    return PointWay::OpenGl;
+  }
+  if (is_software) {
+    return static_cast<double>(points.count) > pixels * kPointsAPixelThatPay ? PointWay::Cpu : PointWay::OpenGl;
+  }
+  return points.count >= kPointsThatPayOnAGpu && ComputePoints::suits(points) ? PointWay::Compute : PointWay::OpenGl;
+}
+
 /// For the present sub-frame; what is averaged over several is drawn whole.
 void ViewPipeline::Impl::drawPoints() {
   PointCollection points;
-  const bool may_be_cpu =
-      point_way == PointWay::Cpu || (point_way == PointWay::Auto && is_software && stages->samples() <= 1);
-  if (may_be_cpu) {
+  const bool is_gl_alone = point_way == PointWay::OpenGl || (point_way == PointWay::Auto && stages->samples() > 1);
+  if (!is_gl_alone) {
     points = collectPoints(*root, toOsg(view.eye_from_fixed), stages->clipFromEye(), height_px);
   }
-  const double pixels = static_cast<double>(width_px) * height_px;
-  const bool pays = static_cast<double>(points.count) > pixels * kPointsAPixelThatPay && pixels <= kMostPixels;
+  const PointWay way = wayOf(points);
+  if (point_stage != nullptr && way != stage_way) {
+    dropPoints();
+  }
+  stage_way = way;
   point_progress.reset();
-  if (points.count > 0 && (point_way == PointWay::Cpu || pays)) {
+  if (way != PointWay::OpenGl) {
     if (point_stage == nullptr) {
-      point_stage = std::make_unique<PointStage>();
+      point_stage = way == PointWay::Cpu
+                        ? std::make_unique<PointStage>()
+                        : std::make_unique<PointStage>(std::make_unique<ComputePoints>(*window->getState()));
       content->addChild(&point_stage->picture());
     }
-    const double budget_ms = stages->subFrames() > 1 ? std::numeric_limits<double>::infinity() : point_budget_ms;
-    point_progress = point_stage->draw(std::move(points), width_px, height_px, budget_ms);
-  } else if (point_stage != nullptr) {
+    PointLimits limits = point_limits;
+    if (stages->subFrames() > 1) {
+      limits.budget_ms = std::numeric_limits<double>::infinity();
+    }
+    point_progress = point_stage->draw(std::move(points), width_px, height_px, limits);
+  }
+  stages->setCullMask(point_progress ? ~kOpaquePoints : ~osg::Node::NodeMask{0});
+}
+
+void ViewPipeline::Impl::dropPoints() {
+  if (point_stage != nullptr) {
     content->removeChild(&point_stage->picture());
     point_stage->picture().releaseGLObjects(window->getState());
     point_stage.reset();
   }
-  stages->setCullMask(point_progress ? ~kOpaquePoints : ~osg::Node::NodeMask{0});
 }
 
 std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, int width, int height, bool present) {
@@ -262,7 +294,7 @@ void ViewPipeline::setMostSorted(int fragments) {
 
 void ViewPipeline::setPointWay(PointWay way) { impl_->point_way = way; }
 
-void ViewPipeline::setPointBudget(double budget_ms) { impl_->point_budget_ms = budget_ms; }
+void ViewPipeline::setPointLimits(const PointLimits& limits) { impl_->point_limits = limits; }
 
 const std::optional<PointProgress>& ViewPipeline::pointProgress() const noexcept { return impl_->point_progress; }
 
@@ -298,7 +330,7 @@ std::vector<PickHit> ViewPipeline::pick(int x_px, int y_px, int reach_px) {
   const osg::Matrixd clip_from_eye = toOsg(impl.projection_matrix);
   PointCollection points;
   std::optional<IdPass::CpuPoints> cpu_points;
-  if (impl.point_progress) {
+  if (impl.point_progress && impl.stage_way == PointWay::Cpu) {
     points = collectPoints(*impl.root, eye_from_fixed, clip_from_eye, impl.height_px);
     cpu_points.emplace(impl.point_stage->keys(points, impl.width_px, impl.height_px), points);
   }
@@ -334,6 +366,7 @@ void ViewPipeline::releaseGl() {
     impl_->id_pass->release(*impl_->window->getState());
     impl_->id_pass.reset();
   }
+  impl_->dropPoints();
   impl_->content->releaseGLObjects(impl_->window->getState());
   impl_->dropStages();
   osg::deleteAllGLObjects(impl_->contextId());

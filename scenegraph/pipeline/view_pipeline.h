@@ -28,7 +28,7 @@ struct LinearFrame {
 inline constexpr int kMostSorted = 64;
 
 /// Who draws opaque points.
-enum class PointWay : std::uint8_t { Auto, OpenGl, Cpu };
+enum class PointWay : std::uint8_t { Auto, OpenGl, Cpu, Compute };
 
 /// Draws a scene graph into targets of its own and, when asked, on to a framebuffer of somebody else.
 ///
@@ -56,12 +56,12 @@ class ViewPipeline {
   /// none is, which is weighted blending. kMostSorted at first.
   void setMostSorted(int fragments);
 
-  /// How opaque points are drawn: by OpenGL, or on the CPU and put into its picture. Auto takes the CPU where OpenGL is
-  /// itself software, no multisampling is asked for, and the points are so many that it pays. The picture is the same.
+  /// How opaque points are drawn: by OpenGL as primitives, on the CPU, or by compute shaders; the picture is the same.
+  /// Auto takes the CPU where OpenGL is itself software, compute shaders on a GPU where all points are small, and
+  /// either only when the points are so many that it pays and no multisampling is asked for.
   void setPointWay(PointWay way);
-  /// Time for the points of one frame, where they are drawn on the CPU; what it does not reach for is drawn by the next
-  /// frames, as long as nothing else changes. At first there is no limit.
-  void setPointBudget(double budget_ms);
+  /// How many points a frame draws, where OpenGL does not draw them as primitives. At first there is no limit.
+  void setPointLimits(const PointLimits& limits);
   /// Of the last render; nullopt: OpenGL drew the points, all of them.
   [[nodiscard]] const std::optional<PointProgress>& pointProgress() const noexcept;
 

@@ -5,7 +5,9 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <limits>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -173,17 +175,44 @@ void scatter(const Block& block, std::span<const std::uint32_t> numbers, const P
   }
 }
 
+/// Positions as they are.
+struct PlainPoints {
+  const float* positions;
+
+  glm::vec3 operator()(std::uint32_t number) const noexcept {
+    const float* const point = positions + std::size_t{3} * number;
+    return {point[0], point[1], point[2]};
+  }
+};
+
+/// Pixels of a depth image; what is not to be drawn is nowhere.
+struct RayPoints {
+  const float* rays;
+  const float* depths;
+  float unit;
+  float farthest;
+
+  glm::vec3 operator()(std::uint32_t number) const noexcept {
+    const float* const ray = rays + std::size_t{3} * number;
+    const float depth = depths[number];
+    const bool is_drawn = depth > 0.0F && depth <= farthest && ray[2] > 0.0F;
+    const float scale = is_drawn ? depth * unit : std::numeric_limits<float>::quiet_NaN();
+    return {ray[0] * scale, ray[1] * scale, ray[2] * scale};
+  }
+};
+
 /// Collects points into blocks and draws each block that is full.
+template <typename Points>
 class Feeder {
  public:
-  Feeder(std::span<const float> positions, const Projection& projection, const Canvas& canvas)
-      : positions_(positions.data()), projection_(projection), canvas_(canvas) {}
+  Feeder(const Points& points, const Projection& projection, const Canvas& canvas)
+      : points_(points), projection_(projection), canvas_(canvas) {}
 
   void add(std::uint32_t number) {
-    const float* const point = positions_ + std::size_t{3} * number;
-    block_.x[filled_] = point[0];
-    block_.y[filled_] = point[1];
-    block_.z[filled_] = point[2];
+    const glm::vec3 point = points_(number);
+    block_.x[filled_] = point.x;
+    block_.y[filled_] = point.y;
+    block_.z[filled_] = point.z;
     numbers_[filled_] = number;
     if (++filled_ == kBlock) {
       flush();
@@ -197,7 +226,7 @@ class Feeder {
   }
 
  private:
-  const float* positions_;
+  const Points points_;
   const Projection& projection_;
   const Canvas& canvas_;
   std::size_t filled_ = 0;
@@ -223,7 +252,8 @@ Projection projectionOf(const PointBatch& batch, int width_px, int height_px, st
 }
 
 /// The points of one group that the passes take, in the order of memory: a third of the time of their own order.
-void drawGroup(Feeder& feeder, const PassRange& passes, std::uint32_t first, std::uint32_t end) {
+template <typename Points>
+void drawGroup(Feeder<Points>& feeder, const PassRange& passes, std::uint32_t first, std::uint32_t end) {
   std::array<std::uint64_t, kPassesOfSample / 64> taken{};
   for (std::uint32_t pass = passes.first; pass < passes.end; ++pass) {
     const std::uint32_t place = placeInGroup(first / kPassesOfSample, pass);
@@ -239,16 +269,30 @@ void drawGroup(Feeder& feeder, const PassRange& passes, std::uint32_t first, std
   }
 }
 
-void drawPiece(std::span<const float> positions, const Projection& projection, const Canvas& canvas,
-               const PassRange& passes, std::uint32_t begin, std::uint32_t end) {
-  Feeder feeder(positions, projection, canvas);
-  if (passes.isWhole()) {
-    for (std::uint32_t number = begin; number < end; ++number) {
-      feeder.add(number);
+/// A piece of a batch: what all threads need of it.
+struct Piece {
+  std::span<const PointBox> boxes;
+  const Projection& projection;
+  const Canvas& canvas;
+  const BoxCull& cull;
+  const PassRange& passes;
+};
+
+template <typename Points>
+void drawPiece(const Points& points, const Piece& piece, std::uint32_t begin, std::uint32_t end) {
+  Feeder<Points> feeder(points, piece.projection, piece.canvas);
+  for (std::uint32_t first = begin; first < end; first += kPassesOfSample) {
+    const std::size_t group = first / kPassesOfSample;
+    if (group < piece.boxes.size() && !piece.cull.mayBeSeen(piece.boxes[group])) {
+      continue;
     }
-  } else {
-    for (std::uint32_t first = begin; first < end; first += kPassesOfSample) {
-      drawGroup(feeder, passes, first, end);
+    if (piece.passes.isWhole()) {
+      const std::uint32_t behind = std::min(first + kPassesOfSample, end);
+      for (std::uint32_t number = first; number < behind; ++number) {
+        feeder.add(number);
+      }
+    } else {
+      drawGroup(feeder, piece.passes, first, end);
     }
   }
   feeder.flush();
@@ -260,6 +304,21 @@ struct PointRaster::Threads {
   explicit Threads(unsigned count) : arena(count == 0 ? tbb::task_arena::automatic : static_cast<int>(count)) {}
   tbb::task_arena arena;
 };
+
+std::size_t countInView(const PointBatch& batch) {
+  if (batch.boxes.empty()) {
+    return batch.count();
+  }
+  const BoxCull cull(batch.clip_from_points);
+  std::size_t count = 0;
+  for (std::size_t group = 0; group < batch.boxes.size(); ++group) {
+    const std::size_t first = group * kPassesOfSample;
+    if (first < batch.count() && cull.mayBeSeen(batch.boxes[group])) {
+      count += std::min<std::size_t>(kPassesOfSample, batch.count() - first);
+    }
+  }
+  return count;
+}
 
 float PointKey::depth(std::uint64_t key) noexcept {
   return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32U));
@@ -283,15 +342,23 @@ void PointRaster::draw(std::span<const PointBatch> batches, const PassRange& pas
   std::uint32_t first_number = 0;
   for (const PointBatch& batch : batches) {
     const Projection projection = projectionOf(batch, width_px_, height_px_, first_number);
-    const std::size_t count = batch.count();
+    const BoxCull cull(batch.clip_from_points);
+    const Piece shared{batch.boxes, projection, canvas, cull, passes};
+    const bool has_depths = !batch.depths.empty();
+    const std::size_t count = has_depths ? std::min(batch.count(), batch.depths.size()) : batch.count();
     threads_->arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, (count + kPiece - 1) / kPiece, [&](std::size_t piece) {
-        const std::size_t begin = piece * kPiece;
-        drawPiece(batch.positions, projection, canvas, passes, static_cast<std::uint32_t>(begin),
-                  static_cast<std::uint32_t>(std::min(begin + kPiece, count)));
+        const auto begin = static_cast<std::uint32_t>(piece * kPiece);
+        const auto end = static_cast<std::uint32_t>(std::min(piece * kPiece + kPiece, count));
+        if (has_depths) {
+          drawPiece(RayPoints{batch.positions.data(), batch.depths.data(), batch.unit, batch.farthest}, shared, begin,
+                    end);
+        } else {
+          drawPiece(PlainPoints{batch.positions.data()}, shared, begin, end);
+        }
       });
     });
-    first_number += static_cast<std::uint32_t>(count);
+    first_number += static_cast<std::uint32_t>(batch.count());
   }
 }
 

@@ -13,17 +13,6 @@ namespace {
 constexpr std::size_t kStepsAnInterval = 64;
 constexpr float kLargestMissing = -2.9e38F;
 
-const std::array<float, 256>& linearOfBytes() {
-  static const std::array<float, 256> kTable = [] {
-    std::array<float, 256> table{};
-    for (std::size_t i = 0; i < table.size(); ++i) {
-      table[i] = linearFromSrgb(static_cast<float>(i) / 255.0F);
-    }
-    return table;
-  }();
-  return kTable;
-}
-
 std::vector<glm::vec3> tableOf(std::span<const glm::vec3> anchors) {
   std::vector<glm::vec3> table;
   if (anchors.size() < 2) {
@@ -66,6 +55,17 @@ PointShading::PointShading(std::span<const PointBatch> batches, std::span<const 
     }
     first += static_cast<std::uint32_t>(count);
   }
+}
+
+const std::array<float, 256>& PointShading::linearOfBytes() {
+  static const std::array<float, 256> kTable = [] {
+    std::array<float, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) {
+      table[i] = linearFromSrgb(static_cast<float>(i) / 255.0F);
+    }
+    return table;
+  }();
+  return kTable;
 }
 
 glm::vec3 PointShading::fromTable(const Batch& batch, float t) {

@@ -25,6 +25,14 @@ struct PointColors {
   std::vector<glm::vec3> colormap;     ///< Value, Axis: evenly spaced over t of 0..1
   glm::vec3 flat{};
   glm::vec3 missing{};
+
+  /// The same choices about the same arrays, at the same place in memory.
+  [[nodiscard]] bool isSame(const PointColors& other) const noexcept {
+    return mode == other.mode && rgba.data() == other.rgba.data() && rgba.size() == other.rgba.size() &&
+           values.data() == other.values.data() && values.size() == other.values.size() &&
+           value_map == other.value_map && axis_map == other.axis_map && colormap == other.colormap &&
+           flat == other.flat && missing == other.missing;
+  }
 };
 
 /// Colours of what a raster holds, as the points' shader computes them, decoded to linear light: only for points that
@@ -37,15 +45,20 @@ class PointShading {
   /// share of it that tone mapping leaves alone: 0 of the points' own colours, 1 of colours that a legend explains.
   [[nodiscard]] glm::vec4 linearColor(std::uint32_t number) const;
 
- private:
+  /// What the colours of a batch are made of, for who computes them elsewhere.
   struct Batch {
     std::uint32_t first = 0;
     std::span<const float> positions;
     PointColors colors;
-    std::vector<glm::vec3> table;  // linear light over t of 0..1
-    glm::vec3 flat{};
-    glm::vec3 missing{};
+    std::vector<glm::vec3> table;  ///< linear light over t of 0..1
+    glm::vec3 flat{};              ///< linear
+    glm::vec3 missing{};           ///< linear
   };
+  [[nodiscard]] const std::vector<Batch>& batches() const noexcept { return batches_; }
+  /// Linear light of an sRGB byte.
+  [[nodiscard]] static const std::array<float, 256>& linearOfBytes();
+
+ private:
   [[nodiscard]] static glm::vec3 fromTable(const Batch& batch, float t);
 
   std::vector<Batch> batches_;

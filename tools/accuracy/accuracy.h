@@ -12,6 +12,9 @@ struct AccuracyReport {
   std::string svg;
 };
 
+/// "2026-11-22", UTC: when what is reported was measured.
+[[nodiscard]] std::string dateOfToday();
+
 /// Writes DIRECTORY/<name>.md and .svg, creating the directory; false when that failed.
 [[nodiscard]] bool writeReport(const AccuracyReport& report, const std::string& directory);
 

@@ -244,12 +244,8 @@ std::string argumentOf(const std::vector<PostRow>& rows) {
 }
 
 std::string headOf(const std::string& renderer) {
-  const std::chrono::year_month_day day{std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now())};
-  std::array<char, 16> date{};
-  std::snprintf(date.data(), date.size(), "%04d-%02u-%02u", static_cast<int>(day.year()),
-                static_cast<unsigned>(day.month()), static_cast<unsigned>(day.day()));
-  return "# Post passes: error against run time\n\nMeasured " + std::string(date.data()) + " on " + renderer +
-         ", pictures of " + std::to_string(kWidth) + "x" + std::to_string(kHeight) +
+  return "# Post passes: error against run time\n\nMeasured " + dateOfToday() + " on " + renderer + ", pictures of " +
+         std::to_string(kWidth) + "x" + std::to_string(kHeight) +
          ", by `stillframe accuracy post`. Errors are of linear light, white = 1 (a step of a byte is 3.9e-3); times "
          "are the shortest of several "
          "frames, with the GPU drained. References: ambient occlusion by 1024 samples at full resolution without "

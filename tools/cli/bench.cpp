@@ -1,10 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <memory>
 #include <random>
 #include <thread>
+#include <utility>
 
 #include "scenegraph/pick/scene_pick.h"
 #include "scenegraph/pipeline/offscreen_renderer.h"
@@ -20,8 +23,28 @@ namespace {
 
 struct BenchOptions {
   std::string file;
+  std::vector<std::string> only;
+  bool is_scrub = false;
   bool is_json = false;
 };
+
+/// What the numbers were taken on.
+struct Machine {
+  std::string processor;
+  unsigned cores = 1;
+  std::string renderer;  ///< "" when no picture was drawn
+  double memcpy_mb_per_s = 0.0;
+  std::string version;
+};
+
+/// Cases that need no recording, by the name that --only takes.
+constexpr std::array kGroups{
+    std::pair("clouds", &benchClouds),         std::pair("codecs", &benchCodecs),   std::pair("grids", &benchGrids),
+    std::pair("markers", &benchMarkers),       std::pair("robot", &benchRobot),     std::pair("voxels", &benchVoxels),
+    std::pair("poses", &benchPoses),           std::pair("sensors", &benchSensors), std::pair("points", &benchPoints),
+    std::pair("messages", &benchMessages),     std::pair("transforms", &benchTransforms),
+};
+constexpr const char* kRecording = "recording";
 
 std::string processorName() {
   std::ifstream cpuinfo("/proc/cpuinfo");
@@ -127,9 +150,17 @@ Result<void> benchRecording(const std::string& file, std::vector<BenchResult>& r
   return {};
 }
 
-void print(const std::vector<BenchResult>& results, const std::string& processor, unsigned cores,
-           const std::string& renderer) {
-  std::printf("%s, %u cores; renderer: %s\n", processor.c_str(), cores, renderer.c_str());
+double memcpyMbPerS() {
+  std::vector<char> from(std::size_t{64} << 20, 'x');
+  std::vector<char> to(from.size());
+  return static_cast<double>(from.size()) * 1e-6 /
+         bestSecondsOf(5, [&] { std::memcpy(to.data(), from.data(), from.size()); });
+}
+
+void print(const std::vector<BenchResult>& results, const Machine& machine) {
+  std::printf("%s, %u cores, memcpy %.0f MB/s; renderer: %s; stillframe %s\n", machine.processor.c_str(), machine.cores,
+              machine.memcpy_mb_per_s, machine.renderer.empty() ? "none" : machine.renderer.c_str(),
+              machine.version.c_str());
   for (const BenchResult& result : results) {
     std::printf("  %-60s %12.4g %-12s", result.name.c_str(), result.value, result.unit.c_str());
     if (result.at_most) {
@@ -141,9 +172,10 @@ void print(const std::vector<BenchResult>& results, const std::string& processor
   }
 }
 
-Json toJson(const std::vector<BenchResult>& results, const std::string& processor, unsigned cores,
-            const std::string& renderer) {
-  Json json{{"processor", processor}, {"cores", cores}, {"renderer", renderer}, {"results", Json::array()}};
+Json toJson(const std::vector<BenchResult>& results, const Machine& machine) {
+  Json json{
+      {"processor", machine.processor}, {"cores", machine.cores},     {"memcpy_mb_per_s", machine.memcpy_mb_per_s},
+      {"renderer", machine.renderer},   {"version", machine.version}, {"results", Json::array()}};
   for (const BenchResult& result : results) {
     Json row{{"name", result.name}, {"value", result.value}, {"unit", result.unit}};
     if (result.at_most) {
@@ -157,11 +189,9 @@ Json toJson(const std::vector<BenchResult>& results, const std::string& processo
   return json;
 }
 
-Result<void> runBench(const BenchOptions& options) {
-  std::vector<BenchResult> results;
-  std::string renderer;
+/// Of the file, or of a sample made for it.
+Result<void> benchFile(std::string file, std::vector<BenchResult>& results, std::string& renderer) {
   const TemporarySample sample;
-  std::string file = options.file;
   if (file.empty()) {
     file = sample.path().string();
     std::optional<CliError> failed;
@@ -175,24 +205,45 @@ Result<void> runBench(const BenchOptions& options) {
     }
     results.push_back({"sample recording of 10 s, made", made_s * 1e3, "ms", 2000.0});
   }
-  if (const auto done = benchRecording(file, results, renderer); !done) {
-    return done;
+  return benchRecording(file, results, renderer);
+}
+
+Result<void> runBench(const BenchOptions& options) {
+  const auto isChosen = [&](const char* name) {
+    return !options.is_scrub && (options.only.empty() || std::ranges::find(options.only, name) != options.only.end());
+  };
+  std::vector<BenchResult> results;
+  Machine machine{.processor = processorName(),
+                  .cores = std::thread::hardware_concurrency(),
+                  .renderer = "",
+                  .memcpy_mb_per_s = memcpyMbPerS(),
+                  .version = STILLFRAME_VERSION " (" STILLFRAME_COMMIT ")"};
+  if (options.is_scrub) {
+    if (options.file.empty()) {
+      return usageError("--scrub drags through a recording: name one");
+    }
+    if (const auto done = benchScrub(options.file, results); !done) {
+      return done;
+    }
+  } else if (isChosen(kRecording)) {
+    if (const auto done = benchFile(options.file, results, machine.renderer); !done) {
+      return done;
+    }
   }
-  benchClouds(results);
-  benchCodecs(results);
-  benchGrids(results);
-  benchMarkers(results);
-  benchMessages(results);
-  benchRobot(results);
-  benchVoxels(results);
-  benchPoses(results);
-  benchSensors(results);
-  benchTransforms(results);
-  const unsigned cores = std::thread::hardware_concurrency();
+  if (machine.renderer.empty()) {
+    if (const auto renderer = scenegraph::OffscreenRenderer::create()) {
+      machine.renderer = (*renderer)->context().info().renderer;
+    }
+  }
+  for (const auto& [name, measure] : kGroups) {
+    if (isChosen(name)) {
+      measure(results);
+    }
+  }
   if (options.is_json) {
-    std::fputs(jsonText(toJson(results, processorName(), cores, renderer)).c_str(), stdout);
+    std::fputs(jsonText(toJson(results, machine)).c_str(), stdout);
   } else {
-    print(results, processorName(), cores, renderer);
+    print(results, machine);
   }
   return {};
 }
@@ -202,6 +253,14 @@ Result<void> runBench(const BenchOptions& options) {
 Command addBenchCommand(CLI::App& app) {
   auto options = std::make_shared<BenchOptions>();
   app.add_option("FILE", options->file, "The recording to measure with; default: the sample recording");
+  std::vector<std::string> names{kRecording};
+  for (const auto& [name, measure] : kGroups) {
+    names.emplace_back(name);
+  }
+  app.add_option("--only", options->only, "Measure just these; may be repeated")
+      ->check(CLI::IsMember(names))
+      ->allow_extra_args(false);
+  app.add_flag("--scrub", options->is_scrub, "Drag the slider of FILE there and back, and nothing else");
   app.add_flag("--json", options->is_json, "One JSON object instead of a table");
   return [options] { return runBench(*options); };
 }

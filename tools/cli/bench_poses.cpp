@@ -6,27 +6,14 @@
 #include "scenegraph/executor.h"
 #include "scenegraph/objects/poses.h"
 #include "scenegraph/scene.h"
+#include "tools/bench/memory_messages.h"
 #include "tools/cli/bench_results.h"
 
 namespace stillframe::cli {
 namespace {
 
 using scenegraph::AnyObject;
-using scenegraph::Entry;
 using scenegraph::PosesInFrame;
-
-/// Messages in memory; the locator is their number.
-class MessagesInMemory final : public scenegraph::EntrySource {
- public:
-  explicit MessagesInMemory(std::vector<AnyObject> messages) : messages_(std::move(messages)) {}
-  [[nodiscard]] std::expected<AnyObject, scenegraph::DecodeError> decode(const scenegraph::TopicInfo&,
-                                                                         const Entry& entry) const override {
-    return messages_.at(entry.locator);
-  }
-
- private:
-  std::vector<AnyObject> messages_;
-};
 
 /// Poses along a helix, a millisecond apart.
 AnyObject makePoses(scenegraph::PosesKind kind, std::size_t count, double phase) {
@@ -47,17 +34,11 @@ AnyObject makePoses(scenegraph::PosesKind kind, std::size_t count, double phase)
 double tickMs(scenegraph::PosesKind kind, std::size_t poses, std::size_t messages,
               const scenegraph::SettingTexts& settings) {
   std::vector<AnyObject> all;
-  std::vector<Entry> entries;
   for (std::size_t i = 0; i < messages; ++i) {
     all.push_back(makePoses(kind, poses, static_cast<double>(i)));
-    entries.push_back({.log_time = {static_cast<std::int64_t>(i)}, .payload_bytes = 1, .locator = i});
   }
   const auto dataset = std::make_shared<scenegraph::Dataset>("bench");
-  scenegraph::TopicInfo info;
-  info.name = "/poses";
-  info.type = scenegraph::ObjectType::PosesInFrame;
-  const auto topic = dataset->store().addTopic(std::move(info), std::make_shared<MessagesInMemory>(std::move(all)));
-  dataset->store().append(topic, entries);
+  bench::addTopic(*dataset, "/poses", scenegraph::ObjectType::PosesInFrame, std::move(all));
   const auto executor = scenegraph::makeSynchronousExecutor();
   scenegraph::Scene scene(dataset, nodes::layerTypes(), *executor);
   scene.setFixedFrame("map");

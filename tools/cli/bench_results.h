@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/cli/cli_error.h"
+
 namespace stillframe::cli {
 
 /// One measured number, and what it should be where there is a target.
@@ -60,6 +62,11 @@ void benchSensors(std::vector<BenchResult>& results);
 void benchMarkers(std::vector<BenchResult>& results);
 /// Messages of markers and poses, from their bytes to what is drawn, beside memory copy.
 void benchMessages(std::vector<BenchResult>& results);
+/// Frames of 1 and 10 million points by each rasteriser, and beside the bare loop; frames while the camera moves.
+void benchPoints(std::vector<BenchResult>& results);
+/// The slider of a recording dragged there and back, twice: from a position to its picture, and what keeps the thread
+/// of the window. Opening it, beside reading what that needs.
+[[nodiscard]] Result<void> benchScrub(const std::string& file, std::vector<BenchResult>& results);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
 

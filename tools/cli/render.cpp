@@ -58,16 +58,14 @@ Json effectsJson(const scenegraph::ViewEffects& effects) {
   return json;
 }
 
-/// Who drew the opaque points, and on the CPU how many there are and in what time.
+/// Who drew the opaque points; where that was not OpenGL by itself, how many there are and in what time.
 Json pointsJson(const scenegraph::FrameStatistics& frame) {
   if (!frame.points) {
     return {{"rasterizer", "gl"}};
   }
-  return {{"rasterizer", "cpu"},
-          {"count", frame.points->points},
-          {"share", frame.points->share},
-          {"raster_ms", frame.points->raster_ms},
-          {"resolve_ms", frame.points->resolve_ms}};
+  return {{"rasterizer", frame.points->by},       {"count", frame.points->points},
+          {"in_view", frame.points->in_view},     {"share", frame.points->share},
+          {"raster_ms", frame.points->raster_ms}, {"resolve_ms", frame.points->resolve_ms}};
 }
 
 Result<void> runRender(const RenderCommandOptions& options) {

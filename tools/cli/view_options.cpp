@@ -15,12 +15,14 @@ Result<scenegraph::CameraKind> parseCamera(const std::string& text) {
 }
 
 Result<scenegraph::PointWay> parsePointWay(const std::string& text) {
-  if (text == "auto" || text == "gl" || text == "cpu") {
-    return text == "gl"    ? scenegraph::PointWay::OpenGl
-           : text == "cpu" ? scenegraph::PointWay::Cpu
-                           : scenegraph::PointWay::Auto;
+  using scenegraph::PointWay;
+  for (const auto& [name, way] : {std::pair("auto", PointWay::Auto), std::pair("gl", PointWay::OpenGl),
+                                  std::pair("cpu", PointWay::Cpu), std::pair("compute", PointWay::Compute)}) {
+    if (text == name) {
+      return way;
+    }
   }
-  return usageError("--points '" + text + "' is none of auto, gl, cpu");
+  return usageError("--points '" + text + "' is none of auto, gl, cpu, compute");
 }
 
 Result<std::pair<std::string, scenegraph::FollowMode>> parseFollow(const std::string& text) {
@@ -66,7 +68,8 @@ ViewArguments::ViewArguments(CLI::App& command) {
   command.add_option("--fov", fov_, "Vertical field of view in degrees, 1 to 170")->capture_default_str();
   command.add_option("--size", size_, "WIDTHxHEIGHT of the picture in pixels")->capture_default_str();
   command
-      .add_option("--points", points_, "auto, gl (OpenGL), or cpu (this program, far faster where OpenGL is software)")
+      .add_option("--points", points_,
+                  "auto, gl (primitives), cpu (for OpenGL in software), or compute (shaders, for a GPU)")
       ->type_name("WHO")
       ->capture_default_str();
   command

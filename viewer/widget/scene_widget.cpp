@@ -161,7 +161,7 @@ void SceneWidget::paintGL() {
   }
   pipeline_->setView(view);
   pipeline_->setBackground(background_);
-  pipeline_->setPointBudget(kPointBudgetMs);
+  pipeline_->setPointLimits({.budget_ms = kPointBudgetMs});
   const auto drawn = pipeline_->render(defaultFramebufferObject(), qRound(size_px.width()), qRound(size_px.height()));
   showProblem(drawn ? QString()
                     : tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(drawn.error().message)));

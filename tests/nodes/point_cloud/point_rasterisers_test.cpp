@@ -4,7 +4,9 @@
 
 #include <random>
 
+#include "scenegraph/objects/laser_scan.h"
 #include "scenegraph/pipeline/point_stage.h"
+#include "tests/nodes/images/image_builder.h"
 #include "tests/nodes/scene_picture.h"
 
 namespace stillframe::test {
@@ -78,6 +80,26 @@ class PointRasterisers : public ScenePictureTest, public testing::WithParamInter
     return drawn ? std::move(*drawn) : scenegraph::Picture{};
   }
 
+  /// Of the layers of scene_, which have `points` points.
+  void expectTheSame(const scenegraph::CameraView& view, double tolerance, std::size_t points) {
+    scene_->update(tf::TimePoint{1_s});
+    const scenegraph::Picture by_gl = picture(scene_->root(), view, scenegraph::PointWay::OpenGl);
+    EXPECT_FALSE(renderer_->lastFrame().points);
+    for (const auto& [name, way] :
+         {std::pair("cpu", scenegraph::PointWay::Cpu), std::pair("compute", scenegraph::PointWay::Compute)}) {
+      SCOPED_TRACE(name);
+      const scenegraph::Picture drawn = picture(scene_->root(), view, way);
+      ASSERT_TRUE(renderer_->lastFrame().points);
+      EXPECT_EQ(renderer_->lastFrame().points->by, name);
+      EXPECT_EQ(renderer_->lastFrame().points->points, points);
+      const Difference difference = compare(by_gl, drawn);
+      RecordProperty(std::string("share_of_pixels_apart_by_") + name, std::to_string(difference.pixels));
+      std::cout << name << ": " << difference.pixels << " of " << difference.drawn << " pixels apart\n";
+      EXPECT_GT(difference.drawn, 4000U);
+      EXPECT_LE(difference.pixels, tolerance);
+    }
+  }
+
   void expectTheSame(const tf::RigidTransform& map_from_lidar, const scenegraph::CameraView& view, double tolerance) {
     open(DatasetBuilder()
              .topic("/tf", ObjectType::FrameTransforms)
@@ -87,18 +109,7 @@ class PointRasterisers : public ScenePictureTest, public testing::WithParamInter
              .build(),
          "map");
     add("/points", GetParam().settings);
-    scene_->update(tf::TimePoint{1_s});
-    const scenegraph::Picture by_gl = picture(scene_->root(), view, scenegraph::PointWay::OpenGl);
-    EXPECT_FALSE(renderer_->lastFrame().points);
-
-    const scenegraph::Picture by_cpu = picture(scene_->root(), view, scenegraph::PointWay::Cpu);
-    ASSERT_TRUE(renderer_->lastFrame().points);
-    EXPECT_EQ(renderer_->lastFrame().points->points, 40'000U);
-    const Difference difference = compare(by_gl, by_cpu);
-    RecordProperty("share_of_pixels_apart", std::to_string(difference.pixels));
-    std::cout << GetParam().name << ": " << difference.pixels << " of " << difference.drawn << " pixels apart\n";
-    EXPECT_GT(difference.drawn, 4000U);
-    EXPECT_LE(difference.pixels, tolerance);
+    expectTheSame(view, tolerance, 40'000);
   }
 };
 
@@ -127,6 +138,78 @@ INSTANTIATE_TEST_SUITE_P(
                     RasteriserCase{"fractional", {{"color_field", "intensity"}, {"point_size", "2.7"}}}),
     [](const auto& tested) { return tested.param.name; });
 
+/// A wall with a hole, on a slope, seen by a depth camera that looks along the map's x.
+scenegraph::Image slope(std::uint32_t width, std::uint32_t height) {
+  std::vector<float> metres;
+  for (std::uint32_t row = 0; row < height; ++row) {
+    for (std::uint32_t column = 0; column < width; ++column) {
+      const bool is_hole = (row / 16 + column / 16) % 9 == 0;
+      metres.push_back(is_hole ? std::numeric_limits<float>::quiet_NaN()
+                               : 0.5F + 0.02F * static_cast<float>(column) + 0.001F * static_cast<float>(row * column));
+    }
+  }
+  return makeImage("optical", "32FC1", width, metres);
+}
+
+class OtherPoints : public PointRasterisers {};
+
+TEST_P(OtherPoints, DepthImagesAgree) {
+  const glm::dvec3 munich{4'177'000.25, 855'000.5, 4'728'000.125};
+  const tf::RigidTransform map_from_optical{.rotation = glm::dquat(0.5, -0.5, 0.5, -0.5), .translation = munich};
+  const scenegraph::Image image = slope(320, 240);
+  std::vector<std::uint8_t> colors(std::size_t{3} * 320 * 240);
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    colors[i] = static_cast<std::uint8_t>(i * 7);
+  }
+  open(DatasetBuilder()
+           .topic("/tf", ObjectType::FrameTransforms)
+           .transform(0, "map", "optical", map_from_optical)
+           .topic("/depth/camera_info", ObjectType::CameraInfo)
+           .at(1_s, cameraInfo("optical", 320, 240))
+           .topic("/depth/image_raw", ObjectType::Image)
+           .at(1_s, image)
+           .topic("/color/image_raw", ObjectType::Image)
+           .at(1_s, makeImage("optical", "rgb8", 320, colors, 3))
+           .build(),
+       "map");
+  add("/depth/image_raw", GetParam().settings);
+  expectTheSame(alongX(munich + glm::dvec3(-0.2, 0.1, 0.05)), kTolerance, 320 * 240 + 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    DepthImages, OtherPoints,
+    testing::Values(RasteriserCase{"depth", {{"color_mode", "depth"}}},
+                    RasteriserCase{"rgb", {{"color_mode", "rgb"}, {"point_size", "3"}}},
+                    RasteriserCase{"near", {{"color_mode", "flat"}, {"max_depth_m", "20"}, {"point_size", "2"}}}),
+    [](const auto& tested) { return tested.param.name; });
+
+class ScanRasterisers : public PointRasterisers {};
+
+TEST_P(ScanRasterisers, ScansAgree) {
+  scenegraph::LaserScan scan;
+  scan.frame_id = "lidar";
+  scan.angle_min_rad = -1.2;
+  scan.angle_increment_rad = 2.4 / 2000;
+  scan.range_max_m = 100.0;
+  for (int i = 0; i < 2000; ++i) {
+    scan.ranges_m.push_back(3.0 + std::sin(0.02 * i) + (i % 7 == 0 ? 20.0 : 0.0));
+    scan.intensities.push_back(i % 100);
+  }
+  open(DatasetBuilder()
+           .topic("/tf", ObjectType::FrameTransforms)
+           .transform(0, "map", "lidar", {})
+           .topic("/scan", ObjectType::LaserScan)
+           .at(1_s, scan)
+           .build(),
+       "map");
+  add("/scan", GetParam().settings);
+  expectTheSame({.eye_from_fixed = scenegraph::lookAt({-2, 0, 3}, {5, 0, 0}, {0, 0, 1})}, kTolerance, 2000);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ScanRasterisers,
+                         testing::Values(RasteriserCase{"large", {{"point_size", "9"}, {"color_field", "intensity"}}}),
+                         [](const auto& tested) { return tested.param.name; });
+
 class PointStageSteps : public ScenePictureTest {
  protected:
   void SetUp() override {
@@ -147,7 +230,7 @@ class PointStageSteps : public ScenePictureTest {
     const glm::dmat4 clip_from_eye = scenegraph::projection(view, 1.0);
     return stage.draw(scenegraph::collectPoints(scene_->root(), osg::Matrixd(&view.eye_from_fixed[0][0]),
                                                 osg::Matrixd(&clip_from_eye[0][0]), 64),
-                      64, 64, budget_ms);
+                      64, 64, {.budget_ms = budget_ms});
   }
   static std::vector<unsigned char> colors(scenegraph::PointStage& stage) {
     const auto* const texture = dynamic_cast<osg::Texture*>(
@@ -185,6 +268,24 @@ TEST_F(PointStageSteps, DrawNoPointAgainForAnotherColour) {
   scene_->update(tf::TimePoint{1_s});
   EXPECT_EQ(step(stage, 1e9).raster_ms, 0.0);
   EXPECT_NE(colors(stage), before);
+}
+
+TEST_F(PointStageSteps, UploadNothingWhereNothingChanged) {
+  scenegraph::PointStage stage(2);
+  constexpr std::size_t kPicture = 64 * 64 * 12;
+  EXPECT_EQ(step(stage, 1e9).upload_bytes, kPicture);
+  for (int frame = 0; frame < 3; ++frame) {
+    scene_->update(tf::TimePoint{1_s});
+    const auto progress = step(stage, 1e9);
+    EXPECT_EQ(progress.upload_bytes, 0U);
+    EXPECT_EQ(progress.resolve_ms, 0.0);
+    EXPECT_EQ(progress.share, 1.0);
+  }
+  ASSERT_TRUE(layer_->applySettings({{"color_field", "z"}}));
+  scene_->update(tf::TimePoint{1_s});
+  const auto recoloured = step(stage, 1e9);
+  EXPECT_EQ(recoloured.raster_ms, 0.0);
+  EXPECT_EQ(recoloured.upload_bytes, kPicture);
 }
 
 TEST_F(PointStageSteps, StartAnewWhenTheCameraMovesOrTheCloudIsAnother) {

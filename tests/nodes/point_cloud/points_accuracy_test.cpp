@@ -32,7 +32,7 @@ TEST_F(PointsAccuracyTest, ErrorsFallAsMoreIsDrawnAndAllOfItIsRight) {
   for (const auto& row : accuracy->rows) {
     curves[row.method].push_back(row);
   }
-  ASSERT_EQ(curves.size(), 3U);
+  ASSERT_EQ(curves.size(), 4U);
   for (const auto& [method, curve] : curves) {
     ASSERT_EQ(curve.size(), 10U) << method;
     for (std::size_t i = 1; i < curve.size(); ++i) {

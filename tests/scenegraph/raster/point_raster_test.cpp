@@ -184,6 +184,92 @@ TEST(PointRaster, SurvivesDegenerateMatrices) {
   }
 }
 
+/// A lidar's cloud: groups of neighbours all around, near and far.
+std::vector<float> clusters(std::size_t groups) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> unit(-1.0F, 1.0F);
+  std::vector<float> cloud;
+  for (std::size_t group = 0; group < groups; ++group) {
+    const float reach = std::pow(10.0F, 2.0F * unit(random));
+    const std::array<float, 3> centre{reach * unit(random), reach * unit(random), reach * unit(random)};
+    for (std::size_t i = 0; i < kPassesOfSample; ++i) {
+      for (const float at : centre) {
+        cloud.push_back(at + 0.3F * reach * unit(random));
+      }
+    }
+  }
+  cloud.resize(cloud.size() - 3 * 700);  // a short last group
+  return cloud;
+}
+
+TEST(PointRaster, LeavesOutGroupsThatAreOutOfThePictureAndNothingElse) {
+  std::vector<float> cloud = clusters(60);
+  cloud[5] = kNan;
+  std::fill_n(cloud.begin() + 3 * 1024, 3 * 1024, kNan);
+  const std::vector<PointBox> boxes = boxesOf(cloud);
+  ASSERT_EQ(boxes.size(), 60U);
+  std::size_t in_view = 0;
+  for (const glm::dvec3& eye : {glm::dvec3(0.0), glm::dvec3(0.3, -1.0, 2.0), glm::dvec3(20.0, 5.0, 90.0)}) {
+    for (const double turn : {0.0, 1.0, 2.5, 4.0}) {
+      PointBatch batch{.positions = cloud,
+                       .clip_from_points = perspective(0.1) * glm::rotate(glm::dmat4(1.0), turn, {0.2, 1.0, 0.1}) *
+                                           glm::translate(glm::dmat4(1.0), -eye)};
+      const std::vector<std::uint64_t> reference = drawn({&batch, 1}, 160, 100);
+      EXPECT_EQ(countInView(batch), batch.count());
+      batch.boxes = boxes;
+      EXPECT_EQ(drawn({&batch, 1}, 160, 100), reference);
+      EXPECT_LT(countInView(batch), batch.count()) << "there is a group that is nowhere";
+      in_view += countInView(batch);
+      PointRaster stepwise(2);
+      stepwise.begin(160, 100);
+      stepwise.draw({&batch, 1}, {0, 300});
+      stepwise.draw({&batch, 1}, {300, kPassesOfSample});
+      EXPECT_TRUE(std::ranges::equal(stepwise.keys(), reference));
+    }
+  }
+  EXPECT_LT(in_view, 12 * cloud.size() / 3 * 8 / 10);
+}
+
+TEST(PointBlocks, ABoxHoldsItsPointsButNoNan) {
+  const std::vector<float> cloud{1.0F, 2.0F, 3.0F, kNan, -5.0F, 7.0F, -1.0F, 4.0F, kNan};
+  const std::vector<PointBox> boxes = boxesOf(cloud);
+  ASSERT_EQ(boxes.size(), 1U);
+  EXPECT_THAT(boxes[0].low, testing::ElementsAre(-1.0F, -5.0F, 3.0F));
+  EXPECT_THAT(boxes[0].high, testing::ElementsAre(1.0F, 4.0F, 7.0F));
+  EXPECT_TRUE(boxesOf({}).empty());
+}
+
+TEST(PointBlocks, WhatCannotBeJudgedIsKept) {
+  const PointBox everywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+  const PointBox here{{-1.0F, -1.0F, -2.0F}, {1.0F, 1.0F, -1.0F}};
+  EXPECT_TRUE(BoxCull(perspective(0.1)).mayBeSeen(everywhere));
+  for (const double entry : {static_cast<double>(kNan), static_cast<double>(kInfinity)}) {
+    EXPECT_TRUE(BoxCull(glm::dmat4(entry)).mayBeSeen(here));
+  }
+  EXPECT_FALSE(BoxCull(perspective(0.1)).mayBeSeen({{-1.0F, -1.0F, 1.0F}, {1.0F, 1.0F, 2.0F}})) << "behind the eye";
+  // A point on the very border, by whatever way it is computed.
+  EXPECT_TRUE(BoxCull(perspective(0.1)).mayBeSeen({{1.0F, 0.0F, -1.0F}, {1.0F, 0.0F, -1.0F}}));
+}
+
+TEST(PointRaster, DrawsPixelsOfADepthImageWhereTheirRaysLead) {
+  const std::vector<float> rays{0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F,
+                                0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 1.0F};
+  const std::vector<float> depths{8.0F, 4.0F, 1.0F, -3e38F, 40.0F};
+  PointBatch batch{.positions = rays,
+                   .clip_from_points = perspective(0.5) * glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, 1.0, -2.0)),
+                   .depths = depths,
+                   .unit = 0.5F,
+                   .farthest = 10.0F};
+  const std::vector<std::uint64_t> keys = drawn({&batch, 1}, 1, 1);
+  EXPECT_EQ(PointKey::point(keys.front()), 1U) << "the third has no ray, the fourth no depth, the fifth is too far";
+  EXPECT_EQ(PointKey::depth(keys.front()), 0.125F);
+  batch.farthest = 3.0F;
+  EXPECT_THAT(drawn({&batch, 1}, 1, 1), testing::Each(0U));
+  batch.depths = batch.depths.first(1);
+  batch.farthest = 10.0F;
+  EXPECT_EQ(PointKey::depth(drawn({&batch, 1}, 1, 1).front()), 0.0625F) << "what has no depth is nowhere";
+}
+
 TEST(PointRaster, SizesInMetresShrinkWithDistance) {
   for (const float distance : {1.0F, 2.0F, 4.0F}) {
     const std::vector<float> point{0.0F, 0.0F, -distance};

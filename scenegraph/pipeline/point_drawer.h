@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <osg/Texture2D>
+#include <osg/ref_ptr>
+#include <span>
+
+#include "scenegraph/pipeline/point_collection.h"
+#include "scenegraph/raster/point_shading.h"
+#include "scenegraph/raster/sample_order.h"
+
+namespace stillframe::scenegraph {
+
+/// Draws points into a picture of colour and depth, in passes. PointStage says which points, and how many in a frame.
+///
+/// All that there are show the same picture. Thread of the context only.
+class PointDrawer {
+ public:
+  virtual ~PointDrawer() = default;
+
+  /// Starts an empty picture of these points, which stay until the next begin(). Returns the bytes uploaded.
+  virtual std::size_t begin(const PointCollection& points, int width_px, int height_px) = 0;
+  /// Draws these passes of all of them; when it returns they are drawn.
+  virtual void draw(const PassRange& passes) = 0;
+  /// Brings what was drawn into the textures, in these colours. Returns the bytes uploaded.
+  virtual std::size_t resolve(const PointShading& shading) = 0;
+
+  /// Which point is seen at each pixel, bottom row first (PointKey), numbers counting through the batches in their
+  /// order; empty where the pixels are not within reach of the CPU.
+  [[nodiscard]] virtual std::span<const std::uint64_t> keys() const noexcept { return {}; }
+
+  [[nodiscard]] virtual const char* name() const noexcept = 0;
+  /// Scene-linear, and what PointShading says in alpha.
+  [[nodiscard]] virtual osg::Texture2D& colorTexture() noexcept = 0;
+  /// Reverse-Z; 0 where there are no points.
+  [[nodiscard]] virtual osg::Texture2D& depthTexture() noexcept = 0;
+};
+
+/// A texture of one texel a pixel, read as it is.
+[[nodiscard]] osg::ref_ptr<osg::Texture2D> makePointTexture(int internal_format);
+
+}  // namespace stillframe::scenegraph

@@ -1,0 +1,223 @@
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "nodes/registry.h"
+#include "scenegraph/camera/camera_rig.h"
+#include "scenegraph/executor.h"
+#include "scenegraph/osg_box.h"
+#include "scenegraph/pipeline/offscreen_renderer.h"
+#include "scenegraph/scene.h"
+#include "tools/cli/bench_results.h"
+#include "tools/cli/recording_options.h"
+
+namespace stillframe::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kPositions = 40;  // of the slider, over the recording
+constexpr double kBudgetMs = 33.0;
+constexpr double kLongestWaitS = 20.0;
+
+double milliseconds(Clock::duration duration) { return std::chrono::duration<double, std::milli>(duration).count(); }
+
+/// The event loop of a window, as far as a view needs one: who waits, and who wakes.
+class Wakes {
+ public:
+  void wake() {
+    {
+      const std::scoped_lock lock(mutex_);
+      is_awake_ = true;
+    }
+    waking_.notify_one();
+  }
+  void wait(Clock::time_point until) {
+    std::unique_lock lock(mutex_);
+    waking_.wait_until(lock, until, [&] { return is_awake_; });
+    is_awake_ = false;
+  }
+
+ private:
+  std::mutex mutex_;  // guards is_awake_
+  std::condition_variable waking_;
+  bool is_awake_ = false;
+};
+
+/// What one position of the slider took.
+struct Step {
+  double tick_ms = 0.0;      ///< longest that a tick kept the thread of the window
+  double frame_ms = 0.0;     ///< longest that a frame did
+  double picture_ms = 0.0;   ///< from the slider to the picture of that instant, or a fair part of its points
+  double complete_ms = 0.0;  ///< to all of it
+};
+
+/// A view of a recording as in the window: background work on a pool, frames with a budget.
+class Scrubber {
+ public:
+  Scrubber(std::shared_ptr<scenegraph::Dataset> dataset, std::unique_ptr<scenegraph::OffscreenRenderer> renderer)
+      : renderer_(std::move(renderer)),
+        executor_(scenegraph::makeThreadPoolExecutor(std::max(2U, std::thread::hardware_concurrency()) - 1U)),
+        scene_(std::move(dataset), nodes::layerTypes(), *executor_, [this] { wakes_.wake(); }) {
+    scene_.addDefaultLayers();
+  }
+
+  Result<Step> go(tf::TimePoint time) {
+    Step step;
+    const Clock::time_point start = Clock::now();
+    const Clock::time_point limit =
+        start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kLongestWaitS));
+    const auto tick = [&] { step.tick_ms = std::max(step.tick_ms, 1e3 * secondsOf([&] { scene_.update(time); })); };
+    tick();
+    while (scene_.isPending() && Clock::now() < limit) {
+      wakes_.wait(limit);
+      tick();
+    }
+    if (!is_framed_) {
+      frameAll();
+    }
+    double read_back_ms = 0.0;
+    for (double share = 0.0; share < 1.0;) {
+      const auto drawn = renderer_->render(scene_.root(), view_, {.point_limits = {.budget_ms = kBudgetMs}});
+      if (!drawn) {
+        return failure(drawn.error().message);
+      }
+      const scenegraph::FrameStatistics& frame = renderer_->lastFrame();
+      share = frame.points ? frame.points->share : 1.0;
+      step.frame_ms = std::max(step.frame_ms, frame.frame_ms);
+      read_back_ms += frame.read_back_ms;  // no part of a frame in a window
+      const double passed_ms = milliseconds(Clock::now() - start) - read_back_ms;
+      step.picture_ms = step.picture_ms == 0.0 ? passed_ms : step.picture_ms;
+      step.complete_ms = passed_ms;
+    }
+    return step;
+  }
+  [[nodiscard]] scenegraph::Scene& scene() noexcept { return scene_; }
+
+ private:
+  void frameAll() {
+    const scenegraph::Box box = scenegraph::toBox(scene_.bulkInFixed());
+    if (!box.isValid()) {
+      return;
+    }
+    scenegraph::CameraRig rig;
+    rig.change().frame(box, 16.0 / 9.0);
+    view_ = rig.view();
+    is_framed_ = true;
+  }
+
+  std::unique_ptr<scenegraph::OffscreenRenderer> renderer_;
+  Wakes wakes_;
+  std::unique_ptr<scenegraph::Executor> executor_;
+  scenegraph::Scene scene_;
+  scenegraph::CameraView view_;
+  bool is_framed_ = false;
+};
+
+void report(std::vector<BenchResult>& results, const std::string& name, const std::vector<Step>& steps) {
+  const auto line = [&](const char* what, double Step::* member, std::optional<double> at_most) {
+    std::vector<double> values;
+    for (const Step& step : steps) {
+      values.push_back(step.*member);
+    }
+    std::ranges::sort(values);
+    for (const auto& [title, part] : {std::pair("median", 0.5), std::pair("95 %", 0.95), std::pair("longest", 1.0)}) {
+      results.push_back(
+          {name + ", " + what + ", " + title, quantile(values, part), "ms", part == 1.0 ? at_most : std::nullopt});
+    }
+  };
+  constexpr double kUnnoticed = 16.0;
+  line("slider to picture", &Step::picture_ms, {});
+  line("slider to all of it", &Step::complete_ms, {});
+  line("tick, on the window's thread", &Step::tick_ms, kUnnoticed);
+  line("frame, on the window's thread", &Step::frame_ms, 1.3 * kBudgetMs);
+}
+
+RecordingOptions optionsOf(const std::string& file) {
+  RecordingOptions options;
+  options.file = file;
+  return options;
+}
+
+/// What the messages of that instant cost to read and unpack, by a recording of its own.
+Result<double> readingMs(const std::string& file, tf::TimePoint time) {
+  const Clock::time_point start = Clock::now();
+  const auto recording = openRecording(optionsOf(file));
+  if (!recording) {
+    return std::unexpected(recording.error());
+  }
+  const scenegraph::ObjectStore& store = (*recording)->dataset()->store();
+  for (scenegraph::TopicId topic = 0; topic < store.topicCount(); ++topic) {
+    const auto entry = store.newestAtOrBefore(topic, time);
+    if (entry && store.topic(topic).type == scenegraph::ObjectType::PointCloud) {
+      (void)store.decode(topic, *entry);
+    }
+  }
+  return milliseconds(Clock::now() - start);
+}
+
+}  // namespace
+
+Result<void> benchScrub(const std::string& file, std::vector<BenchResult>& results) {
+  auto renderer = scenegraph::OffscreenRenderer::create();
+  if (!renderer) {
+    return failure(renderer.error().message);
+  }
+  // The file into the memory of the system, for all that follow alike.
+  auto warm = openRecording(optionsOf(file));
+  if (!warm) {
+    return std::unexpected(warm.error());
+  }
+  const auto range = (*warm)->dataset()->timeRange();
+  if (!range) {
+    return failure(file + ": the recording holds no messages");
+  }
+  if (const auto read = readingMs(file, range->second); !read) {
+    return std::unexpected(read.error());
+  }
+  const auto reading_ms = readingMs(file, range->second);
+  if (!reading_ms) {
+    return std::unexpected(reading_ms.error());
+  }
+  const Clock::time_point opening = Clock::now();
+  auto recording = openRecording(optionsOf(file));
+  if (!recording) {
+    return std::unexpected(recording.error());
+  }
+  Scrubber scrubber((*recording)->dataset(), std::move(*renderer));
+  if (const auto first = scrubber.go(range->second); !first) {
+    return std::unexpected(first.error());
+  } else {
+    const double opened_ms = milliseconds(Clock::now() - opening) - first->complete_ms + first->picture_ms;
+    results.push_back({"open to first picture", opened_ms, "ms"});
+    results.push_back({"open, read and unpack the clouds of it", *reading_ms, "ms"});
+    results.push_back({"open to first picture / reading", opened_ms / *reading_ms, "", 1.3});
+  }
+  const double span_ns = tf::secondsBetween(range->first, range->second) * 1e9;
+  for (const char* const name : {"scrub, first visit", "scrub, again"}) {
+    std::vector<Step> steps;
+    for (int i = 0; i < 2 * kPositions; ++i) {
+      const int position = i < kPositions ? i : 2 * kPositions - 1 - i;  // there, and back
+      const auto offset_ns = static_cast<std::int64_t>(span_ns * position / (kPositions - 1));
+      const auto step = scrubber.go(std::min(range->second, tf::TimePoint{range->first.ns + offset_ns}));
+      if (!step) {
+        return std::unexpected(step.error());
+      }
+      steps.push_back(*step);
+    }
+    report(results, name, steps);
+  }
+  const scenegraph::ObjectCache& cache = (*recording)->dataset()->cache();
+  results.push_back(
+      {"cache", static_cast<double>(cache.bytes()) * 1e-6, "MB", static_cast<double>(cache.maxBytes()) * 1e-6});
+  return {};
+}
+
+}  // namespace stillframe::cli

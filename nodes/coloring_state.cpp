@@ -1,6 +1,7 @@
 #include "nodes/coloring_state.h"
 
 #include "nodes/points/colormap.h"
+#include "nodes/uniform_value.h"
 
 namespace stillframe::nodes {
 namespace {
@@ -34,8 +35,8 @@ void ColoringState::setFlatColor(const scenegraph::Color& color) { flat_color_->
 void ColoringState::setMissingColor(const scenegraph::Color& color) { missing_color_->set(rgb(color)); }
 
 void ColoringState::setMode(int mode, const RangeMap& map) {
-  mode_->set(mode);
-  value_->set(osg::Vec2(static_cast<float>(map.scale), static_cast<float>(map.bias)));
+  setIfNew(*mode_, mode);
+  setIfNew(*value_, osg::Vec2(static_cast<float>(map.scale), static_cast<float>(map.bias)));
 }
 
 }  // namespace stillframe::nodes

@@ -3,6 +3,7 @@
 #include <osg/PointSprite>
 
 #include "generated/stillframe_nodes/shaders.h"
+#include "nodes/uniform_value.h"
 #include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
 
@@ -46,7 +47,7 @@ void CloudState::apply(const PointCloudSettings& settings) {
 void CloudState::setMode(ColorMode mode, const RangeMap& map) { coloring_.setMode(static_cast<int>(mode), map); }
 
 void CloudState::setAxisMap(const glm::dvec4& coefficients) {
-  axis_->set(osg::Vec4(osg::Vec4d(coefficients.x, coefficients.y, coefficients.z, coefficients.w)));
+  setIfNew(*axis_, osg::Vec4(osg::Vec4d(coefficients.x, coefficients.y, coefficients.z, coefficients.w)));
 }
 
 }  // namespace stillframe::nodes

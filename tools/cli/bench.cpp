@@ -39,10 +39,12 @@ struct Machine {
 
 /// Cases that need no recording, by the name that --only takes.
 constexpr std::array kGroups{
-    std::pair("clouds", &benchClouds),         std::pair("codecs", &benchCodecs),   std::pair("grids", &benchGrids),
-    std::pair("markers", &benchMarkers),       std::pair("robot", &benchRobot),     std::pair("voxels", &benchVoxels),
-    std::pair("poses", &benchPoses),           std::pair("sensors", &benchSensors), std::pair("points", &benchPoints),
-    std::pair("messages", &benchMessages),     std::pair("transforms", &benchTransforms),
+    std::pair("clouds", &benchClouds),     std::pair("codecs", &benchCodecs),
+    std::pair("grids", &benchGrids),       std::pair("markers", &benchMarkers),
+    std::pair("robot", &benchRobot),       std::pair("voxels", &benchVoxels),
+    std::pair("poses", &benchPoses),       std::pair("sensors", &benchSensors),
+    std::pair("points", &benchPoints),     std::pair("ticks", &benchTicks),
+    std::pair("messages", &benchMessages), std::pair("transforms", &benchTransforms),
 };
 constexpr const char* kRecording = "recording";
 

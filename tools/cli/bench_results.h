@@ -64,6 +64,8 @@ void benchMarkers(std::vector<BenchResult>& results);
 void benchMessages(std::vector<BenchResult>& results);
 /// Frames of 1 and 10 million points by each rasteriser, and beside the bare loop; frames while the camera moves.
 void benchPoints(std::vector<BenchResult>& results);
+/// Ticks of 1000 frames with 200 layers in 4 views.
+void benchTicks(std::vector<BenchResult>& results);
 /// The slider of a recording dragged there and back, twice: from a position to its picture, and what keeps the thread
 /// of the window. Opening it, beside reading what that needs.
 [[nodiscard]] Result<void> benchScrub(const std::string& file, std::vector<BenchResult>& results);

@@ -34,6 +34,7 @@ struct ViewCommandOptions {
   bool only_named_layers = false;
   std::string camera = "orbit";
   std::string follow;
+  std::string points = "auto";
   std::string screenshot;
 };
 
@@ -113,6 +114,11 @@ Result<void> runView(const ViewCommandOptions& options) {
     inspector.display_frame = std::move(follow->first);
     inspector.follow = follow->second;
   }
+  const auto points = parsePointWay(options.points);
+  if (!points) {
+    return std::unexpected(points.error());
+  }
+  inspector.points = *points;
   inspector.layers.only = options.only_named_layers;
   inspector.time = options.time;
   inspector.views = options.views;
@@ -156,6 +162,7 @@ Command addViewCommand(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--follow", options->follow, "FRAME[:position|heading|pose]: the camera goes along with this frame")
       ->type_name("FRAME[:MODE]");
+  app.add_option("--points", options->points, kPointsHelp)->type_name("WHO")->capture_default_str();
   app.add_option("--layer", options->layers, "TOPIC[:key=value,...]: settings of a layer; may be repeated")
       ->type_name("LAYER")
       ->allow_extra_args(false);

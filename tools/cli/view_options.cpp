@@ -67,11 +67,7 @@ ViewArguments::ViewArguments(CLI::App& command) {
   command.add_option("--look-at", look_at_, "x,y,z that the eye looks at; default: the middle of the data");
   command.add_option("--fov", fov_, "Vertical field of view in degrees, 1 to 170")->capture_default_str();
   command.add_option("--size", size_, "WIDTHxHEIGHT of the picture in pixels")->capture_default_str();
-  command
-      .add_option("--points", points_,
-                  "auto, gl (primitives), cpu (for OpenGL in software), or compute (shaders, for a GPU)")
-      ->type_name("WHO")
-      ->capture_default_str();
+  command.add_option("--points", points_, kPointsHelp)->type_name("WHO")->capture_default_str();
   command
       .add_option("--background", background_, "#rrggbb, or r,g,b with components 0..1 (or 0..255 when one is above 1)")
       ->capture_default_str();

@@ -62,7 +62,9 @@ class ViewArguments {
 
 /// "orbit", "xyorbit", "topdown" or "fly".
 [[nodiscard]] Result<scenegraph::CameraKind> parseCamera(const std::string& text);
-/// "auto", "gl" or "cpu".
+inline constexpr const char* kPointsHelp =
+    "auto, gl (primitives), cpu (for OpenGL in software), or compute (shaders, for a GPU)";
+/// "auto", "gl", "cpu" or "compute".
 [[nodiscard]] Result<scenegraph::PointWay> parsePointWay(const std::string& text);
 /// "FRAME" (rigidly: pose) or "FRAME:MODE", MODE being position, heading or pose. A frame's own name may hold colons.
 [[nodiscard]] Result<std::pair<std::string, scenegraph::FollowMode>> parseFollow(const std::string& text);

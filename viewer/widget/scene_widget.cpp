@@ -15,7 +15,9 @@
 namespace stillframe::viewer {
 namespace {
 
-constexpr double kPointBudgetMs = 33.0;  // of a frame, so that the camera follows the hand with any cloud
+// For the points of a frame, so that the camera follows the hand with any cloud.
+constexpr double kSoftwareBudgetMs = 33.0;
+constexpr double kHardwareBudgetMs = 12.0;
 constexpr int kProgressMargin = 6;
 
 QLabel* makeOverlay(QWidget* parent) {
@@ -131,6 +133,7 @@ void SceneWidget::initializeGL() {
       connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &SceneWidget::releaseGl, Qt::DirectConnection);
   const auto info = scenegraph::inspectCurrentContext();
   is_context_usable_ = info.has_value();
+  is_software_ = info && info->is_software;
   if (!info) {
     qCWarning(glLog).noquote() << QString::fromStdString(info.error().message);
     showProblem(tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(info.error().message)));
@@ -161,7 +164,8 @@ void SceneWidget::paintGL() {
   }
   pipeline_->setView(view);
   pipeline_->setBackground(background_);
-  pipeline_->setPointLimits({.budget_ms = kPointBudgetMs});
+  pipeline_->setPointWay(point_way_);
+  pipeline_->setPointLimits({.budget_ms = is_software_ ? kSoftwareBudgetMs : kHardwareBudgetMs});
   const auto drawn = pipeline_->render(defaultFramebufferObject(), qRound(size_px.width()), qRound(size_px.height()));
   showProblem(drawn ? QString()
                     : tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(drawn.error().message)));
@@ -174,6 +178,11 @@ void SceneWidget::paintGL() {
   for (; logged_messages_ < debug_log_.messages().size(); ++logged_messages_) {
     qCWarning(glLog).noquote() << QString::fromStdString(debug_log_.messages()[logged_messages_]);
   }
+}
+
+void SceneWidget::setPointWay(scenegraph::PointWay way) {
+  point_way_ = way;
+  update();
 }
 
 double SceneWidget::pointShare() const {

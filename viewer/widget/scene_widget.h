@@ -89,6 +89,8 @@ class SceneWidget : public QOpenGLWidget {
   void setEffects(const scenegraph::ViewEffects& effects);
   [[nodiscard]] const scenegraph::ViewEffects& effects() const noexcept { return effects_; }
 
+  /// Who draws opaque points (ViewPipeline::setPointWay).
+  void setPointWay(scenegraph::PointWay way);
   /// Share of the points that the last frame has drawn; below 1 the view goes on by itself until all are.
   [[nodiscard]] double pointShare() const;
   /// Frames drawn since the widget was made.
@@ -179,6 +181,8 @@ class SceneWidget : public QOpenGLWidget {
   bool glides_home_ = false;
   scenegraph::Color background_{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
   scenegraph::ViewEffects effects_;
+  scenegraph::PointWay point_way_ = scenegraph::PointWay::Auto;
+  bool is_software_ = false;  // the OpenGL that draws
   tf::TimePoint time_;
   bool wants_framing_ = true;
   bool has_framed_data_ = false;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenegraph/camera/follow.h"
+#include "scenegraph/pipeline/view_pipeline.h"
 #include "scenegraph/status.h"
 #include "viewer/layers/layer_choices.h"
 #include "viewer/window/dataset_loader.h"
@@ -22,6 +23,7 @@ struct InspectorOptions {
   std::optional<std::string> display_frame = {};  ///< absent: the fixed frame
   scenegraph::FollowMode follow = scenegraph::FollowMode::Off;
   LayerChoices layers = {};
+  scenegraph::PointWay points = scenegraph::PointWay::Auto;  ///< who draws opaque points
   int views = 1;
   int width = 1280;  ///< of the window
   int height = 800;

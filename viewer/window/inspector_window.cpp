@@ -273,6 +273,7 @@ void InspectorWindow::fillView(ViewPanel& panel) {
   }
   panel.view().setTime(time_bar_->time());
   panel.view().setCameraKind(options_.camera);
+  panel.view().setPointWay(options_.points);
   if (options_.display_frame) {
     panel.view().setDisplayFrame(options_.display_frame);
     panel.view().setFollow(options_.follow);

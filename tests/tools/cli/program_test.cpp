@@ -62,6 +62,8 @@ TEST(Program, RefusesWhatItDoesNotUnderstand) {
       {"sample", "a.mcap", "--seconds", "-1"},
       {"sample", "a.mcap", "--seconds", "1e9"},
       {"accuracy", "luck"},
+      {"bench", "--scrub"},
+      {"bench", "--only", "luck"},
       {"view", "--views", "0"},
   };
   for (const auto& arguments : mistakes) {

@@ -12,7 +12,6 @@
 #include "nodes/registry.h"
 #include "scenegraph/camera/camera_rig.h"
 #include "scenegraph/executor.h"
-#include "scenegraph/osg_box.h"
 #include "scenegraph/pipeline/offscreen_renderer.h"
 #include "scenegraph/scene.h"
 #include "tools/cli/bench_results.h"
@@ -103,7 +102,7 @@ class Scrubber {
 
  private:
   void frameAll() {
-    const scenegraph::Box box = scenegraph::toBox(scene_.bulkInFixed());
+    const scenegraph::Box box = scene_.bulkInFixed();
     if (!box.isValid()) {
       return;
     }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/vec3.hpp>
 
 namespace stillframe::scenegraph {
@@ -12,6 +14,13 @@ namespace stillframe::scenegraph {
 
 [[nodiscard]] inline glm::vec3 linearFromSrgb(const glm::vec3& srgb) noexcept {
   return {linearFromSrgb(srgb.r), linearFromSrgb(srgb.g), linearFromSrgb(srgb.b)};
+}
+
+/// The way back, exact, rounded to the nearest byte; beyond [0, 1] is clamped, NaN is 0.
+[[nodiscard]] inline std::uint8_t srgbByteFromLinear(float linear) noexcept {
+  const double value = std::isnan(linear) ? 0.0 : std::clamp(static_cast<double>(linear), 0.0, 1.0);
+  const double srgb = value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(srgb * 255.0));
 }
 
 }  // namespace stillframe::scenegraph

@@ -17,6 +17,7 @@
 #include <string>
 
 #include "scenegraph/export/replace_file.h"
+#include "scenegraph/srgb.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -26,13 +27,15 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-std::uint8_t byteFromLinear(float linear) {
-  const double value = std::isnan(linear) ? 0.0 : std::clamp(static_cast<double>(linear), 0.0, 1.0);
-  const double srgb = value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(srgb * 255.0));
-}
+/// What libpng is handed.
+struct Pixels {
+  int width = 0;
+  int height = 0;
+  bool has_alpha = false;
+  const std::vector<std::uint8_t>& bytes;
+};
 
-std::expected<void, std::string> writePngFile(const BytePicture& picture, const std::filesystem::path& path) {
+std::expected<void, std::string> writePngFile(const Pixels& picture, const std::filesystem::path& path) {
   errno = 0;
   File file{std::fopen(path.c_str(), "wb")};
   if (file == nullptr) {
@@ -42,9 +45,10 @@ std::expected<void, std::string> writePngFile(const BytePicture& picture, const 
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(picture.width);
   image.height = static_cast<png_uint_32>(picture.height);
-  image.format = PNG_FORMAT_RGB;  // 8-bit components are sRGB by libpng's definition, and marked so
+  // 8-bit components are sRGB by libpng's definition, and marked so.
+  image.format = picture.has_alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
   std::expected<void, std::string> result;
-  if (png_image_write_to_stdio(&image, file.get(), 0, picture.rgb.data(), 0, nullptr) == 0) {
+  if (png_image_write_to_stdio(&image, file.get(), 0, picture.bytes.data(), 0, nullptr) == 0) {
     result = std::unexpected(std::string(image.message) + " (" + lastSystemError() + ")");
   }
   // Bytes may still be on their way: a full disk shows when they are flushed.
@@ -104,18 +108,36 @@ BytePicture toBytes(const Picture& picture) {
   bytes.rgb.resize(pixels * 3);
   for (std::size_t i = 0; i < pixels; ++i) {
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      bytes.rgb[i * 3 + channel] = byteFromLinear(picture.rgba[i * 4 + channel]);
+      bytes.rgb[i * 3 + channel] = srgbByteFromLinear(picture.rgba[i * 4 + channel]);
     }
   }
   return bytes;
 }
 
+std::vector<std::uint8_t> toRgbaBytes(const Picture& picture) {
+  std::vector<std::uint8_t> bytes(picture.rgba.size());
+  for (std::size_t i = 0; i + 3 < bytes.size(); i += 4) {
+    const float alpha = std::clamp(picture.rgba[i + 3], 0.0F, 1.0F);
+    for (std::size_t c = i; c < i + 3; ++c) {
+      bytes[c] = alpha > 0.0F ? srgbByteFromLinear(picture.rgba[c] / alpha) : std::uint8_t{0};
+    }
+    bytes[i + 3] = static_cast<std::uint8_t>(std::lround(alpha * 255.0F));
+  }
+  return bytes;
+}
+
 std::expected<void, Status> writePng(const BytePicture& picture, const std::filesystem::path& path) {
-  return replaceFile(path, [&](const std::filesystem::path& beside) { return writePngFile(picture, beside); });
+  const Pixels pixels{.width = picture.width, .height = picture.height, .bytes = picture.rgb};
+  return replaceFile(path, [&](const std::filesystem::path& beside) { return writePngFile(pixels, beside); });
 }
 
 std::expected<void, Status> writePng(const Picture& picture, const std::filesystem::path& path) {
-  return writePng(toBytes(picture), path);
+  if (!picture.has_alpha) {
+    return writePng(toBytes(picture), path);
+  }
+  const std::vector<std::uint8_t> bytes = toRgbaBytes(picture);
+  const Pixels pixels{.width = picture.width, .height = picture.height, .has_alpha = true, .bytes = bytes};
+  return replaceFile(path, [&](const std::filesystem::path& beside) { return writePngFile(pixels, beside); });
 }
 
 std::expected<void, Status> writeExr(const Picture& picture, const std::filesystem::path& path) {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "scenegraph/pipeline/offscreen_renderer.h"
+#include "scenegraph/pipeline/picture.h"
 #include "scenegraph/status.h"
 
 namespace stillframe::scenegraph {
@@ -21,11 +21,13 @@ struct BytePicture {
 
 /// Exact sRGB encoding, rounded to the nearest byte; beyond [0, 1] is clamped, NaN is 0.
 [[nodiscard]] BytePicture toBytes(const Picture& picture);
+/// The same with alpha, 4 bytes a pixel, colours not premultiplied: as a PNG and most programs have them.
+[[nodiscard]] std::vector<std::uint8_t> toRgbaBytes(const Picture& picture);
 
 /// The writers write beside `path` and rename, so a failure leaves what was there. Equal pixels give equal files.
 /// Code "CannotWrite" names the path and the system's reason.
 
-/// 8-bit RGB PNG, marked sRGB.
+/// 8-bit PNG, marked sRGB: RGB, or RGBA where the picture has alpha.
 std::expected<void, Status> writePng(const BytePicture& picture, const std::filesystem::path& path);
 std::expected<void, Status> writePng(const Picture& picture, const std::filesystem::path& path);
 /// OpenEXR with 32-bit float channels R, G, B, A (scene-linear) and Z (metres along the view axis, +infinity where

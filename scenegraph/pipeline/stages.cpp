@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <osg/BlendFunc>
 #include <osg/ClipControl>
 #include <osg/Depth>

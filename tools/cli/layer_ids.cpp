@@ -6,11 +6,12 @@
 namespace stillframe::cli {
 
 std::expected<void, scenegraph::Status> addLayerIds(scenegraph::OffscreenRenderer& renderer, SceneSession& session,
+                                                    const scenegraph::CameraView& view,
                                                     const scenegraph::RenderOptions& options,
                                                     scenegraph::Picture& picture) {
   scenegraph::RenderOptions plain = options;
   plain.post = {};
-  const scenegraph::CameraView view = session.camera();  // before layers vanish from what it looks at
+  plain.background.a = 1.0F;
   const auto all = renderer.render(session.scene().root(), view, plain);
   if (!all) {
     return std::unexpected(all.error());

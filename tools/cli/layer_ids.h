@@ -11,6 +11,7 @@ namespace stillframe::cli {
 /// all. Draws the scene once more for each visible layer, without effects; whatever shaders the layers have, they need
 /// not know of it. Of layers with the very same depth the first counts.
 std::expected<void, scenegraph::Status> addLayerIds(scenegraph::OffscreenRenderer& renderer, SceneSession& session,
+                                                    const scenegraph::CameraView& view,
                                                     const scenegraph::RenderOptions& options,
                                                     scenegraph::Picture& picture);
 

@@ -1,8 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <glm/trigonometric.hpp>
 #include <memory>
+#include <numbers>
 
 #include "scenegraph/export/picture_io.h"
 #include "scenegraph/export/picture_normals.h"
@@ -11,6 +15,7 @@
 #include "tools/cli/effect_arguments.h"
 #include "tools/cli/layer_ids.h"
 #include "tools/cli/layer_report.h"
+#include "tools/cli/picture_sequence.h"
 #include "tools/cli/scene_session.h"
 
 namespace stillframe::cli {
@@ -22,6 +27,8 @@ struct RenderCommandOptions {
   EffectArguments effects;
   std::string out;
   std::string channels;
+  std::string times;
+  std::string turntable;
   bool is_json = false;
 };
 
@@ -68,16 +75,138 @@ Json pointsJson(const scenegraph::FrameStatistics& frame) {
           {"raster_ms", frame.points->raster_ms}, {"resolve_ms", frame.points->resolve_ms}};
 }
 
-Result<void> runRender(const RenderCommandOptions& options) {
+/// One picture of a run.
+struct Shot {
+  tf::TimePoint time;
+  double turn_rad = 0.0;
+  std::string file;
+};
+
+/// What all pictures of a run have in common.
+struct Run {
+  ViewOptions view;
+  scenegraph::ViewEffects effects;
+  Channels channels;
+  bool is_exr = false;
+};
+
+volatile std::sig_atomic_t is_interrupted = 0;
+
+/// From now on the first Ctrl+C ends the run after the picture that is being made, the second at once.
+void finishOnInterrupt() {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::signal(signal, [](int received) {
+      is_interrupted = 1;
+      std::signal(received, SIG_DFL);
+    });
+  }
+}
+
+Result<std::vector<Shot>> planShots(const RenderCommandOptions& options, const SceneSession& session,
+                                    const scenegraph::Dataset& dataset) {
+  if (options.times.empty() && options.turntable.empty()) {
+    return std::vector<Shot>{{session.time(), 0.0, options.out}};
+  }
+  std::vector<Shot> shots;
+  if (!options.times.empty()) {
+    const auto asked = parseTimes(options.times);
+    if (!asked) {
+      return std::unexpected(asked.error());
+    }
+    const auto times = resolveTimes(*asked, *dataset.timeRange());
+    if (!times) {
+      return std::unexpected(times.error());
+    }
+    for (const tf::TimePoint time : *times) {
+      shots.push_back({time, 0.0, {}});
+    }
+  } else {
+    const auto count = parseNumber("--turntable", options.turntable, 1, kMostPictures);
+    if (!count || *count != std::floor(*count)) {
+      return usageError("--turntable '" + options.turntable + "' is not a whole number of pictures from 1 to " +
+                        std::to_string(kMostPictures));
+    }
+    for (double i = 0.0; i < *count; ++i) {
+      shots.push_back({session.time(), 2.0 * std::numbers::pi * i / *count, {}});
+    }
+  }
+  const auto name = NumberedName::parse(options.out);
+  if (!name) {
+    return std::unexpected(name.error());
+  }
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    shots[i].file = name->at(static_cast<int>(i));
+  }
+  return shots;
+}
+
+/// Draws and writes one picture; says how long the drawing took.
+Result<scenegraph::FrameStatistics> takeShot(const Run& run, const Shot& shot, SceneSession& session,
+                                             scenegraph::OffscreenRenderer& renderer) {
+  if (shot.time != session.time()) {
+    session.showTime(shot.time);
+  }
+  const scenegraph::CameraView camera = session.camera(shot.turn_rad);
+  session.scene().setView(camera,
+                          {static_cast<double>(run.view.size.width_px), static_cast<double>(run.view.size.height_px)});
+  // An .exr is scene-linear, before the tone curve.
+  const scenegraph::RenderOptions options{run.view.size.width_px, run.view.size.height_px, run.view.background,
+                                          run.is_exr ? run.effects.linearChain() : run.effects.chain(),
+                                          run.view.points};
+  auto picture = renderer.render(session.scene().root(), camera, options);
+  if (!picture) {
+    return std::unexpected(fileError(shot.file, picture.error()));
+  }
+  const scenegraph::FrameStatistics frame = renderer.lastFrame();
+  if (run.channels.normals) {
+    picture->normals = scenegraph::normalsOf(*picture, camera);
+  }
+  if (run.channels.ids) {
+    if (const auto added = addLayerIds(renderer, session, camera, options, *picture); !added) {
+      return std::unexpected(fileError(shot.file, added.error()));
+    }
+  }
+  const auto written =
+      run.is_exr ? scenegraph::writeExr(*picture, shot.file) : scenegraph::writePng(*picture, shot.file);
+  if (!written) {
+    return std::unexpected(fileError(shot.file, written.error()));
+  }
+  return frame;
+}
+
+/// The whole answer for one picture; for several, what they share, to which "pictures" is added.
+Json runJson(const Run& run, SceneSession& session, scenegraph::OffscreenRenderer& renderer) {
+  const scenegraph::FrameStatistics& frame = renderer.lastFrame();
+  return {{"size", {run.view.size.width_px, run.view.size.height_px}},
+          {"time_ns", session.time().ns},
+          {"fixed_frame", session.scene().fixedFrame()},
+          {"frame_ms", frame.frame_ms},
+          {"passes", frame.passes},
+          {"effects", effectsJson(run.effects)},
+          {"samples", frame.samples},
+          {"points", pointsJson(frame)},
+          {"layers", layersJson(session.scene())},
+          {"renderer", renderer.context().info().renderer},
+          {"problems", problemsJson(session.scene().dataset().problems())}};
+}
+
+Result<Run> prepare(const RenderCommandOptions& options) {
   const std::filesystem::path out = options.out;
   if (out.extension() != ".png" && out.extension() != ".exr") {
     return usageError(options.out + ": the name of a picture ends in .png or .exr");
   }
-  const auto view = options.view.view();
+  auto view = options.view.view();
   if (!view) {
     return std::unexpected(view.error());
   }
-  const auto effects = options.effects.effects();
+  if (!options.times.empty()) {
+    const auto times = parseTimes(options.times);
+    if (!times) {
+      return std::unexpected(times.error());
+    }
+    view->time = times->first;
+  }
+  auto effects = options.effects.effects();
   if (!effects) {
     return std::unexpected(effects.error());
   }
@@ -86,57 +215,67 @@ Result<void> runRender(const RenderCommandOptions& options) {
   if (!channels) {
     return std::unexpected(channels.error());
   }
-  auto made = SceneSession::make(*view);
+  return Run{.view = std::move(*view), .effects = std::move(*effects), .channels = *channels, .is_exr = is_exr};
+}
+
+Result<void> runRender(const RenderCommandOptions& options) {
+  const auto run = prepare(options);
+  if (!run) {
+    return std::unexpected(run.error());
+  }
+  const bool is_sequence = !options.times.empty() || !options.turntable.empty();
+  if (is_sequence) {
+    finishOnInterrupt();
+  }
+  auto made = SceneSession::make(run->view);
   if (!made) {
     return std::unexpected(made.error());
   }
   SceneSession& session = **made;
+  const auto shots = planShots(options, session, session.scene().dataset());
+  if (!shots) {
+    return std::unexpected(shots.error());
+  }
   auto renderer = scenegraph::OffscreenRenderer::create();
   if (!renderer) {
     return std::unexpected(fileError(options.out, renderer.error()));
   }
   session.setContext((*renderer)->context().info());
-  session.scene().setView(session.camera(),
-                          {static_cast<double>(view->size.width_px), static_cast<double>(view->size.height_px)});
-  // An .exr is scene-linear, before the tone curve.
-  const scenegraph::RenderOptions render_options{view->size.width_px, view->size.height_px, view->background,
-                                                 is_exr ? effects->linearChain() : effects->chain(), view->points};
-  auto picture = (*renderer)->render(session.scene().root(), session.camera(), render_options);
-  if (!picture) {
-    return std::unexpected(fileError(options.out, picture.error()));
-  }
-  const scenegraph::FrameStatistics frame = (*renderer)->lastFrame();
-  if (channels->normals) {
-    picture->normals = scenegraph::normalsOf(*picture, session.camera());
-  }
-  if (channels->ids) {
-    if (const auto added = addLayerIds(**renderer, session, render_options, *picture); !added) {
-      return std::unexpected(fileError(options.out, added.error()));
+  Json pictures = Json::array();
+  std::size_t taken = 0;
+  for (; taken < shots->size() && is_interrupted == 0; ++taken) {
+    const Shot& shot = (*shots)[taken];
+    const auto frame = takeShot(*run, shot, session, **renderer);
+    if (!frame) {
+      return std::unexpected(frame.error());
+    }
+    if (!options.is_json) {
+      std::printf("%s: %d x %d at %lld ns, fixed frame '%s', %.1f ms\n", printable(shot.file).c_str(),
+                  run->view.size.width_px, run->view.size.height_px, static_cast<long long>(shot.time.ns),
+                  printable(session.scene().fixedFrame()).c_str(), frame->frame_ms);
+    } else if (is_sequence) {
+      pictures.push_back({{"file", shot.file},
+                          {"time_ns", shot.time.ns},
+                          {"turn_deg", glm::degrees(shot.turn_rad)},
+                          {"frame_ms", frame->frame_ms},
+                          {"points", pointsJson(*frame)},
+                          {"layers", layersJson(session.scene())}});
     }
   }
-  const auto written = is_exr ? scenegraph::writeExr(*picture, out) : scenegraph::writePng(*picture, out);
-  if (!written) {
-    return std::unexpected(fileError(options.out, written.error()));
-  }
-  const auto& dataset = session.scene().dataset();
   if (options.is_json) {
-    const Json json{{"size", {view->size.width_px, view->size.height_px}},
-                    {"time_ns", session.time().ns},
-                    {"fixed_frame", session.scene().fixedFrame()},
-                    {"frame_ms", frame.frame_ms},
-                    {"passes", frame.passes},
-                    {"effects", effectsJson(*effects)},
-                    {"samples", frame.samples},
-                    {"points", pointsJson(frame)},
-                    {"layers", layersJson(session.scene())},
-                    {"renderer", (*renderer)->context().info().renderer},
-                    {"problems", problemsJson(dataset.problems())}};
+    Json json = runJson(*run, session, **renderer);
+    if (is_sequence) {
+      for (const char* of_one : {"time_ns", "frame_ms", "points", "layers"}) {
+        json.erase(of_one);
+      }
+      json["pictures"] = std::move(pictures);
+    }
     std::fputs(jsonText(json).c_str(), stdout);
   } else {
-    std::printf("%s: %d x %d at %lld ns, fixed frame '%s', %.1f ms\n", printable(options.out).c_str(),
-                view->size.width_px, view->size.height_px, static_cast<long long>(session.time().ns),
-                printable(session.scene().fixedFrame()).c_str(), frame.frame_ms);
-    printRemarks(session.scene(), dataset);
+    printRemarks(session.scene(), session.scene().dataset());
+  }
+  if (taken < shots->size()) {
+    return failure("stopped after " + std::to_string(taken) + " of " + std::to_string(shots->size()) + " pictures");
   }
   return {};
 }
@@ -145,12 +284,23 @@ Result<void> runRender(const RenderCommandOptions& options) {
 
 Command addRenderCommand(CLI::App& app) {
   auto options = std::make_shared<RenderCommandOptions>(app);
-  app.add_option("--out", options->out, "The picture: .png (8 bit) or .exr (scene-linear float, with Z)")->required();
+  app.add_option(
+         "--out", options->out,
+         "The picture: .png (8 bit) or .exr (scene-linear float, with Z); of several, with their number's place: "
+         "frame_%05d.png")
+      ->required();
+  CLI::Option* const times =
+      app.add_option("--times", options->times, "Several pictures: from time A to time B, every STEP seconds")
+          ->type_name("A:B:STEP")
+          ->excludes(app.get_option("--time"));
+  app.add_option("--turntable", options->turntable, "Several pictures: once round what is looked at, in N of them")
+      ->type_name("N")
+      ->excludes(times);
   app.add_option(
          "--channels", options->channels,
          "normals,id: of an .exr, besides R, G, B, A and Z: N.X, N.Y, N.Z in the fixed frame; the layer's number")
       ->type_name("NAMES");
-  app.add_flag("--json", options->is_json, "One JSON object on what was drawn");
+  app.add_flag("--json", options->is_json, "One JSON object on what was drawn; of several pictures, on each of them");
   return [options] { return runRender(*options); };
 }
 

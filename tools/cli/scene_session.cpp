@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 #include <iterator>
 
@@ -168,13 +169,19 @@ Result<void> SceneSession::placeCamera() {
   return {};
 }
 
-scenegraph::CameraView SceneSession::camera() const {
+scenegraph::CameraView SceneSession::camera(double turn_rad) const {
   scenegraph::CameraView view = rig_.view();
   if (options_.eye && options_.camera != scenegraph::CameraKind::TopDownOrtho) {
     // Not through the camera, which keeps its own bounds of radius and pitch: the eye is exactly where it was asked
     // for.
     view.eye_from_fixed =
         scenegraph::lookAt(*options_.eye, options_.look_at.value_or(rig_.model().sight().focal_point), {0, 0, 1});
+  }
+  if (turn_rad != 0.0) {
+    const glm::dvec3 middle = options_.look_at.value_or(rig_.model().sight().focal_point);
+    view.eye_from_fixed = view.eye_from_fixed * glm::translate(glm::dmat4(1.0), middle) *
+                          glm::rotate(glm::dmat4(1.0), -turn_rad, glm::dvec3(0.0, 0.0, 1.0)) *
+                          glm::translate(glm::dmat4(1.0), -middle);
   }
   return follow_.view(view);
 }

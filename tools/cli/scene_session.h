@@ -27,7 +27,8 @@ class SceneSession {
   void setContext(const scenegraph::GlContextInfo& info);
   /// From the eye that was asked for, else one that sees all of it from above at an angle. It was placed at the first
   /// instant, and has gone along with the followed frame since.
-  [[nodiscard]] scenegraph::CameraView camera() const;
+  /// `turn_rad` turns it about the vertical through what it looks at, counterclockwise from above.
+  [[nodiscard]] scenegraph::CameraView camera(double turn_rad = 0.0) const;
   /// What an exported file says of itself.
   [[nodiscard]] scenegraph::ExportInfo exportInfo() const;
 

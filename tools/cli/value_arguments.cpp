@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace stillframe::cli {
 namespace {
@@ -67,23 +68,33 @@ Result<PictureSize> parseSize(std::string_view text) {
 }
 
 Result<scenegraph::Color> parseColor(std::string_view what, std::string_view text) {
-  if (text.starts_with('#') && text.size() == 7) {
-    const auto r = parseHex(text.substr(1, 2));
-    const auto g = parseHex(text.substr(3, 2));
-    const auto b = parseHex(text.substr(5, 2));
-    if (r && g && b) {
-      return scenegraph::Color{static_cast<float>(*r) / 255.0F, static_cast<float>(*g) / 255.0F,
-                               static_cast<float>(*b) / 255.0F, 1.0F};
+  std::vector<double> parts;
+  double whole = 1.0;
+  if (text == "transparent") {
+    parts = {0.0, 0.0, 0.0, 0.0};
+  } else if (text.starts_with('#') && (text.size() == 7 || text.size() == 9)) {
+    whole = 255.0;
+    for (std::size_t i = 1; i < text.size(); i += 2) {
+      parts.push_back(parseHex(text.substr(i, 2)).value_or(-1));
     }
-  } else if (const auto rgb = parseVector(what, text)) {
-    const double highest = std::max({rgb->x, rgb->y, rgb->z});
-    const double scale = highest > 1.0 ? 255.0 : 1.0;
-    if (std::min({rgb->x, rgb->y, rgb->z}) >= 0.0 && highest <= 255.0) {
-      return scenegraph::Color{static_cast<float>(rgb->x / scale), static_cast<float>(rgb->y / scale),
-                               static_cast<float>(rgb->z / scale), 1.0F};
+  } else {
+    std::string_view rest = text;
+    std::size_t comma = 0;
+    while (comma != std::string_view::npos) {
+      comma = rest.find(',');
+      parts.push_back(parseDouble(rest.substr(0, comma)).value_or(-1.0));
+      rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
     }
+    whole = std::ranges::max(parts) > 1.0 ? 255.0 : 1.0;
   }
-  return usageError(quoted(what, text) + "is neither #rrggbb nor r,g,b with components 0..1 (or 0..255)");
+  const bool is_color = (parts.size() == 3 || parts.size() == 4) &&
+                        std::ranges::all_of(parts, [&](double part) { return part >= 0.0 && part <= whole; });
+  if (!is_color) {
+    return usageError(quoted(what, text) +
+                      "is none of #rrggbb, #rrggbbaa, r,g,b or r,g,b,a with components 0..1 (or 0..255), transparent");
+  }
+  const auto part = [&](std::size_t i) { return i < parts.size() ? static_cast<float>(parts[i] / whole) : 1.0F; };
+  return scenegraph::Color{part(0), part(1), part(2), part(3)};
 }
 
 Result<double> parseNumber(std::string_view what, std::string_view text, double minimum, double maximum) {

@@ -19,7 +19,8 @@ inline constexpr int kMaxSide_px = 16384;
 [[nodiscard]] Result<glm::dvec3> parseVector(std::string_view what, std::string_view text);
 /// "WxH", 1..kMaxSide_px each.
 [[nodiscard]] Result<PictureSize> parseSize(std::string_view text);
-/// "#rrggbb", or "r,g,b" with components 0..1, or 0..255 when one of them is above 1.
+/// "#rrggbb", "#rrggbbaa", "r,g,b" or "r,g,b,a" with components 0..1, or 0..255 when one of them is above 1;
+/// "transparent" is 0,0,0,0. Alpha is 1 where it is not said.
 [[nodiscard]] Result<scenegraph::Color> parseColor(std::string_view what, std::string_view text);
 /// A finite double in [minimum, maximum].
 [[nodiscard]] Result<double> parseNumber(std::string_view what, std::string_view text, double minimum, double maximum);

@@ -69,7 +69,10 @@ ViewArguments::ViewArguments(CLI::App& command) {
   command.add_option("--size", size_, "WIDTHxHEIGHT of the picture in pixels")->capture_default_str();
   command.add_option("--points", points_, kPointsHelp)->type_name("WHO")->capture_default_str();
   command
-      .add_option("--background", background_, "#rrggbb, or r,g,b with components 0..1 (or 0..255 when one is above 1)")
+      .add_option("--background", background_,
+                  "#rrggbb, #rrggbbaa, r,g,b or r,g,b,a with components 0..1 (or 0..255 when one is above 1), or "
+                  "transparent: with an alpha below 1 the picture has alpha")
+      ->type_name("COLOR")
       ->capture_default_str();
 }
 

@@ -50,6 +50,17 @@ class PictureIo : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
+TEST_F(PictureIo, BytesWithAlphaAreNotPremultiplied) {
+  const float half = linearFromByte(128);
+  const Picture picture{.width = 4,
+                        .height = 1,
+                        .rgba = {half, 0, 0, 1, 0.25F * half, 0, 0, 0.25F, 0, 0, 0, 0, 5, 5, 5, 0.5F},
+                        .depth_m = std::vector<float>(4),
+                        .has_alpha = true};
+  EXPECT_EQ(toRgbaBytes(picture),
+            (std::vector<std::uint8_t>{128, 0, 0, 255, 128, 0, 0, 64, 0, 0, 0, 0, 255, 255, 255, 128}));
+}
+
 TEST_F(PictureIo, PngHoldsEveryByteAndComesBack) {
   const Picture picture = ramp();
   ASSERT_TRUE(writePng(picture, folder_ / "ramp.png"));

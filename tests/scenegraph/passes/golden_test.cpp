@@ -4,6 +4,7 @@
 
 #include "scenegraph/export/picture_io.h"
 #include "scenegraph/passes/view_effects.h"
+#include "scenegraph/pipeline/offscreen_renderer.h"
 #include "tests/support/golden.h"
 #include "tools/accuracy/post_scene.h"
 
@@ -90,6 +91,21 @@ TEST_F(EffectPicture, ToneMapping) {
   EXPECT_TRUE(matchesGolden(toBytes(neutral), "effects_neutral"));
   EXPECT_LT(light(neutral), light(plain_));
   EXPECT_GT(changed(neutral), 0.4);
+}
+
+TEST_F(EffectPicture, ExposureAlone) {
+  const Picture picture = draw(with("tonemap", {{"curve", "none"}, {"exposure", "-1"}}));
+  EXPECT_TRUE(matchesGolden(toBytes(picture), "effects_exposure"));
+  EXPECT_LT(light(picture), 0.75 * light(plain_));
+  EXPECT_GT(light(picture), 0.4 * light(plain_)) << "points and lines keep their light";
+}
+
+TEST_F(EffectPicture, Dithering) {
+  const Picture picture = draw(with("dither"));
+  EXPECT_TRUE(matchesGolden(toBytes(picture), "effects_dither"));
+  EXPECT_EQ(changed(picture), 0.0) << "a step of a byte, no more";
+  EXPECT_NE(toBytes(picture), toBytes(plain_));
+  EXPECT_NEAR(light(picture), light(plain_), 1e-3);
 }
 
 TEST_F(EffectPicture, Antialiasing) {

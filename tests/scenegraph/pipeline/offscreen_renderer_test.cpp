@@ -8,6 +8,7 @@
 #include <osg/Depth>
 #include <osg/MatrixTransform>
 
+#include "scenegraph/blending.h"
 #include "tests/scenegraph/pipeline/shader_scene.h"
 
 namespace stillframe::scenegraph {
@@ -52,13 +53,50 @@ class OffscreenRendererTest : public ::testing::Test {
 CameraView lookDown(double height) { return {.eye_from_fixed = lookAt({0, 0, height}, {0, 0, 0}, {0, 1, 0})}; }
 
 TEST_F(OffscreenRendererTest, DrawsBackgroundWithInfiniteDepthForAnEmptyScene) {
-  const auto picture = renderer_->render(*root_, {}, {.width = 8, .height = 4, .background = {0.2F, 0.4F, 0.6F, 0.0F}});
+  const auto picture = renderer_->render(*root_, {}, {.width = 8, .height = 4, .background = {0.2F, 0.4F, 0.6F, 1.0F}});
   ASSERT_TRUE(picture);
   ASSERT_EQ(picture->rgba.size(), 8U * 4U * 4U);
   EXPECT_EQ(pixel(*picture, 7, 3), (std::array{51, 102, 153}));
   EXPECT_EQ(picture->rgba[3], 1.0F);
   EXPECT_EQ(depth(*picture, 0, 0), std::numeric_limits<float>::infinity());
   EXPECT_EQ(renderer_->lastFrame().passes, std::vector<std::string>{"scene"});
+}
+
+TEST_F(OffscreenRendererTest, ATransparentBackgroundLeavesWhatHidesIt) {
+  // From left to right an opaque thing, one of alpha 0.25, and nothing.
+  root_->addChild(makeShape(GL_QUADS, {{-3, -1, 0}, {-1, -1, 0}, {-1, 1, 0}, {-3, 1, 0}}, {{1, 0, 0, 1}}));
+  const auto pane = makeShape(GL_QUADS, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 0, 0.25F}});
+  setBlended(*pane->getOrCreateStateSet(), true);
+  root_->addChild(pane);
+  CameraView view = lookDown(3.0);
+  view.is_orthographic = true;
+  view.vertical_extent_m = 2.0;
+  const auto at = [](const Picture& picture, std::size_t x) {
+    const float* rgba = &picture.rgba[4 * (8 * 48 + x)];
+    return std::array{rgba[0], rgba[1], rgba[2], rgba[3]};
+  };
+  RenderOptions options{.width = 48, .height = 16, .background = {0, 0, 0, 0}};
+  const auto clear = renderer_->render(*root_, view, options);
+  ASSERT_TRUE(clear);
+  EXPECT_TRUE(clear->has_alpha);
+  EXPECT_EQ(at(*clear, 4), (std::array{1.0F, 0.0F, 0.0F, 1.0F}));
+  for (const auto& [channel, value] : {std::pair{1, 0.25F}, {3, 0.25F}, {0, 0.0F}}) {
+    EXPECT_NEAR(at(*clear, 24)[static_cast<std::size_t>(channel)], value, 1e-3F) << "premultiplied";
+  }
+  EXPECT_EQ(at(*clear, 44), (std::array{0.0F, 0.0F, 0.0F, 0.0F}));
+
+  options.background = {1, 1, 1, 0.5F};
+  const auto half = renderer_->render(*root_, view, options);
+  ASSERT_TRUE(half);
+  EXPECT_EQ(at(*half, 4), (std::array{1.0F, 0.0F, 0.0F, 1.0F}));
+  EXPECT_NEAR(at(*half, 24)[3], 0.25F + 0.75F * 0.5F, 1e-3F);
+  EXPECT_EQ(at(*half, 44), (std::array{0.5F, 0.5F, 0.5F, 0.5F}));
+
+  options.background.a = 1.0F;
+  const auto opaque = renderer_->render(*root_, view, options);
+  ASSERT_TRUE(opaque);
+  EXPECT_FALSE(opaque->has_alpha);
+  EXPECT_EQ(at(*opaque, 24)[3], 1.0F);
 }
 
 TEST_F(OffscreenRendererTest, PutsThePictureUpright) {

@@ -37,10 +37,15 @@ TEST(ValueArguments, ReadsColoursInEveryForm) {
   EXPECT_EQ(parseColor("--background", "#ff0080"), (scenegraph::Color{1.0F, 0.0F, 128.0F / 255.0F, 1.0F}));
   EXPECT_EQ(parseColor("--background", "0.5,0,1"), (scenegraph::Color{0.5F, 0.0F, 1.0F, 1.0F}));
   EXPECT_EQ(parseColor("--background", "255,0,51"), (scenegraph::Color{1.0F, 0.0F, 0.2F, 1.0F}));
+  EXPECT_EQ(parseColor("--background", "#ff008033"), (scenegraph::Color{1.0F, 0.0F, 128.0F / 255.0F, 0.2F}));
+  EXPECT_EQ(parseColor("--background", "1,0.5,0,0.25"), (scenegraph::Color{1.0F, 0.5F, 0.0F, 0.25F}));
+  EXPECT_EQ(parseColor("--background", "255,0,0,51"), (scenegraph::Color{1.0F, 0.0F, 0.0F, 0.2F}));
+  EXPECT_EQ(parseColor("--background", "transparent"), (scenegraph::Color{0.0F, 0.0F, 0.0F, 0.0F}));
 }
 
 TEST(ValueArguments, RefusesWhatIsNoColour) {
-  for (const char* text : {"", "red", "#fff", "#gg0000", "#ff00801", "1,1", "-1,0,0", "256,0,0", "nan,0,0"}) {
+  for (const char* text : {"", ",", "red", "#fff", "#gg0000", "#ff00801", "#ff0080-1", "1,1", "-1,0,0", "256,0,0",
+                           "nan,0,0", "1,1,1,1,1", "1,1,1,", "0,0,0,-1", "transparent "}) {
     EXPECT_FALSE(parseColor("--background", text)) << text;
   }
 }

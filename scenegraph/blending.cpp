@@ -6,6 +6,7 @@
 namespace stillframe::scenegraph {
 
 void setBlended(osg::StateSet& state, bool is_blended) {
+  state.getOrCreateUniform("u_is_blended", osg::Uniform::FLOAT)->set(is_blended ? 1.0F : 0.0F);
   if (is_blended) {
     const osg::ref_ptr<osg::BlendFunc> over =
         new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

@@ -24,5 +24,5 @@ void main() {
   if (color.a <= 0.0) {
     discard;
   }
-  gl_FragColor = sfOutput(vec4(color.rgb * sfLight(v_normal_in_eye, v_position_in_eye, true), color.a));
+  gl_FragColor = sfLitOutput(vec4(color.rgb * sfLight(v_normal_in_eye, v_position_in_eye, true), color.a));
 }

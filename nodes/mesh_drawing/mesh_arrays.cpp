@@ -146,6 +146,7 @@ MeshState::MeshState() : state_(new osg::StateSet), opacity_(new osg::Uniform("u
   state_->setAttributeAndModes(scenegraph::makeProgram("mesh", shaders::k_mesh_vert, shaders::k_mesh_frag));
   state_->addUniform(new osg::Uniform("u_texture", 0));
   state_->addUniform(opacity_);
+  scenegraph::setBlended(*state_, false);
 }
 
 void MeshState::setOpacity(double opacity) {

@@ -66,6 +66,7 @@ InstancedMesh::InstancedMesh(const TriangleMesh& mesh, const std::string& name, 
   state.addUniform(new osg::Uniform("u_instances", static_cast<int>(kInstanceUnit)));
   state.addUniform(new osg::Uniform("u_faces_viewer", look == Look::Square));
   state.addUniform(opacity_);
+  scenegraph::setBlended(state, false);
   faces_viewer_ = look == Look::Square;
   node_->setName(name);
   node_->addChild(geometry_);

@@ -13,5 +13,5 @@ void main() {
     discard;
   }
   float light = sfLight(v_normal_in_eye, v_position_in_eye, true);
-  gl_FragColor = sfOutput(vec4(v_color.rgb * light, alpha));
+  gl_FragColor = sfLitOutput(vec4(v_color.rgb * light, alpha));
 }

@@ -9,5 +9,5 @@ in vec4 v_color;
 
 void main() {
   float light = sfLight(v_normal_in_eye, v_position_in_eye, true);
-  gl_FragColor = sfOutput(vec4(v_color.rgb * light, v_color.a * u_opacity));
+  gl_FragColor = sfLitOutput(vec4(v_color.rgb * light, v_color.a * u_opacity));
 }

@@ -43,6 +43,7 @@ TriangleDrawable::TriangleDrawable(const std::string& name)
   osg::StateSet& state = *geometry_->getOrCreateStateSet();
   state.setAttributeAndModes(scenegraph::makeProgram("surface", shaders::k_surface_vert, shaders::k_surface_frag));
   state.addUniform(opacity_);
+  scenegraph::setBlended(state, false);
   node_->setName(name);
   node_->addChild(geometry_);
   commit();

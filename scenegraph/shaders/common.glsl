@@ -2,9 +2,11 @@
 //
 // u_linear_output (set by our view pipeline only): 1 when the target is scene-linear, 0 (the default, and so in an
 // exported file in a stock viewer) when it shows what is written.
-// u_viewport_height_px: height of the target, for sizes in metres; 720 where nobody sets it.
+// u_viewport_height_px: height of the target, for sizes in metres; 720 where nobody sets it. u_pixel_ratio: pixels of the
+// target to one of those that settings count in, above 1 on fine screens.
 uniform float u_linear_output = 0.0;
 uniform float u_viewport_height_px = 720.0;
+uniform float u_pixel_ratio = 1.0;
 
 // Exact sRGB decoding (IEC 61966-2-1).
 vec3 sfLinearFromSrgb(vec3 srgb) {
@@ -28,12 +30,16 @@ vec4 sfOutput(vec4 srgb) {
 }
 
 // The same for an opaque lit or photographic colour, which exposure and tone mapping grade: in our target alpha is the
-// share of a pixel's light that they leave alone. Drawn with blending it is sfOutput() and a blend function whose factors
-// for alpha are (ZERO, ONE_MINUS_SRC_ALPHA).
+// share of a pixel's light that they leave alone.
 vec4 sfGradedOutput(vec3 srgb) {
   vec3 color = sfFiniteColor(srgb);
   return u_linear_output > 0.5 ? vec4(sfLinearFromSrgb(color), 0.0) : vec4(color, 1.0);
 }
+
+// The same for a lit surface, in either state of setBlended(), which sets u_is_blended: what is translucent lies over the
+// picture as a chosen colour does, ungraded.
+uniform float u_is_blended = 0.0;
+vec4 sfLitOutput(vec4 srgb) { return u_is_blended > 0.5 ? sfOutput(srgb) : sfGradedOutput(srgb.rgb); }
 
 // Turns normals by a matrix with any scale: negative (normals stay outside), uneven, or zero along one axis.
 mat3 sfNormalMatrix(mat3 m) {

@@ -10,6 +10,7 @@
 #include "scenegraph/passes/view_effects.h"
 #include "scenegraph/pipeline/offscreen_context.h"
 #include "scenegraph/pipeline/view_pipeline.h"
+#include "tests/scenegraph/passes/gl_calls.h"
 #include "tests/scenegraph/pipeline/shader_scene.h"
 
 namespace stillframe::scenegraph {
@@ -115,6 +116,34 @@ TEST_F(EffectCostTest, EachEffectCostsItsOwnPassesAndNothingWhenItIsOffAgain) {
     EXPECT_EQ(now.programs - live.programs, at.programs);
     EXPECT_EQ(workOf({}), none);
     EXPECT_EQ(LiveObjects::count(), live);
+  }
+}
+
+TEST_F(EffectCostTest, OffIsNoDrawClearTextureOrSwitchMore) {
+  const auto calls_of = [&](const ViewEffects& effects) {
+    pipeline_->setPostChain(effects.chain());
+    present();
+    present();  // what is made once is made
+    const GlCalls before = GlCalls::count();
+    present();
+    return GlCalls::count() - before;
+  };
+  const GlCalls none = calls_of({});
+  EXPECT_EQ(none.draws, 2) << "the scene, and present";
+  EXPECT_EQ(none.clears, 1);
+  EXPECT_EQ(none.texture_makes, 0);
+  for (const auto& [effect, passes] : {std::pair{"ssao", 2}, {"edl", 1}, {"tonemap", 1}, {"dither", 1}}) {
+    const GlCalls on = calls_of(with(effect));
+    EXPECT_EQ(on.draws, none.draws + passes) << effect;
+    EXPECT_GT(on.texture_binds, none.texture_binds) << effect;
+    EXPECT_EQ(on.texture_makes, 0) << effect;
+    ViewEffects off = with(effect);
+    off.setOn(effect, false);
+    GlCalls after = calls_of(off);
+    // OSG goes on unbinding the units that were in use once.
+    EXPECT_LE(after.texture_binds, none.texture_binds + 2) << effect;
+    after.texture_binds = none.texture_binds;
+    EXPECT_EQ(after, none) << effect;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "nodes/points/channel.h"
+#include "nodes/points/colormap.h"
 #include "nodes/points/value_range.h"
 #include "scenegraph/settings.h"
 #include "tf/rigid_transform.h"
@@ -14,7 +15,7 @@ namespace stillframe::nodes {
 
 /// How values become colours: the settings of every layer that colours by a value. Settings structs derive from it.
 struct ValueColoring {
-  std::string colormap = "turbo";
+  std::string colormap{kDefaultColormap};
   bool reverse_colormap = false;
   std::string range_mode = "auto";
   double range_min = 0.0;

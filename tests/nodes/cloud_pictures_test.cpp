@@ -55,9 +55,9 @@ TEST_F(CloudPicture, ColoursByIntensityOverItsRangeByDefault) {
   open(datasetOf(threePoints({0, 0, 0}, {10, 20, 30})), "map");
   const auto& layer = add("/points", kBig);
   const auto colors = drawThree();
-  expectNear(colors[0], colorAt("turbo", 0.0));
-  expectNear(colors[1], colorAt("turbo", 0.5));
-  expectNear(colors[2], colorAt("turbo", 1.0));
+  expectNear(colors[0], colorAt("viridis", 0.0));
+  expectNear(colors[1], colorAt("viridis", 0.5));
+  expectNear(colors[2], colorAt("viridis", 1.0));
   EXPECT_EQ(layer.status(), scenegraph::Status{});
   EXPECT_EQ(layer.counts(), (scenegraph::LayerCounts{{"points", 3}, {"dropped", 0}, {"bytes", 48}}));
 }
@@ -144,25 +144,25 @@ TEST_F(CloudPicture, HoldsAFieldsRangeOverTimeWhicheverWayItCame) {
   open(dataset, "map");
   add("/points", kBig);
   const auto later = drawThree(2_s);
-  expectNear(later[0], colorAt("turbo", 0.5));
-  expectNear(later[2], colorAt("turbo", 1.0));
-  expectNear(drawThree(1_s)[1], colorAt("turbo", 0.5));
+  expectNear(later[0], colorAt("viridis", 0.5));
+  expectNear(later[2], colorAt("viridis", 1.0));
+  expectNear(drawThree(1_s)[1], colorAt("viridis", 0.5));
   EXPECT_EQ(drawThree(2_s), later);
 }
 
 TEST_F(CloudPicture, TakesManualPercentileAndReversedRanges) {
   open(datasetOf(threePoints({0, 0, 0}, {0, 50, 1000})), "map");
   auto& layer = add("/points", with(kBig, {{"range_mode", "manual"}, {"range_min", "0"}, {"range_max", "100"}}));
-  expectNear(drawThree()[1], colorAt("turbo", 0.5));
+  expectNear(drawThree()[1], colorAt("viridis", 0.5));
   ASSERT_TRUE(layer.applySettings({{"range_max", "200"}, {"reverse_colormap", "true"}}));
-  expectNear(drawThree()[1], colorAt("turbo", 0.75));
+  expectNear(drawThree()[1], colorAt("viridis", 0.75));
   ASSERT_TRUE(layer.applySettings({{"reverse_colormap", "false"},
                                    {"range_mode", "percentile"},
                                    {"percentile_low", "0"},
                                    {"percentile_high", "50"}}));
-  expectNear(drawThree()[1], colorAt("turbo", 1.0));
+  expectNear(drawThree()[1], colorAt("viridis", 1.0));
   ASSERT_TRUE(layer.applySettings({{"range_mode", "manual"}, {"range_min", "7"}, {"range_max", "7"}}));
-  expectNear(drawThree()[2], colorAt("turbo", 0.5));
+  expectNear(drawThree()[2], colorAt("viridis", 0.5));
 }
 
 TEST_F(CloudPicture, GivesNanFieldsTheirOwnColourAndDropsNanPoints) {

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "nodes/points/channel.h"
 #include "nodes/points/value_range.h"
@@ -32,7 +35,7 @@ TEST(Colormap, OffersTheRequiredOnesAndMore) {
        {"turbo", "viridis", "plasma", "grayscale", "inferno", "magma", "cividis", "coolwarm", "jet"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
-  EXPECT_EQ(nodes::colormaps().front().name, "turbo");
+  EXPECT_EQ(nodes::colormaps().front().name, nodes::kDefaultColormap);
   EXPECT_EQ(findColormap("no such map"), nullptr);
 }
 
@@ -51,6 +54,77 @@ TEST(Colormap, GrayscaleIsTheIdentity) {
   for (int i = 0; i <= 255; ++i) {
     expectColor(findColormap("grayscale")->at(i / 255.0), i, i, i);
   }
+}
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+/// Linear light as eyes without one sort of cones see it: G. Machado, M. Oliveira, L. Fernandes, 2009, severity 1.
+constexpr std::array<std::pair<const char*, Matrix>, 4> kEyes{{
+    {"all cones", {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}},
+    {"no long", {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}}},
+    {"no middle", {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}}},
+    {"no short", {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}}},
+}};
+constexpr Matrix kXyzFromLinear{
+    {{0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}}};
+
+std::array<double, 3> times(const Matrix& matrix, const std::array<double, 3>& v) {
+  std::array<double, 3> product{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    product[row] = matrix[row][0] * v[0] + matrix[row][1] * v[1] + matrix[row][2] * v[2];
+  }
+  return product;
+}
+
+/// CIE L*, a*, b* of an sRGB colour as these eyes see it.
+std::array<double, 3> labOf(const Rgb& srgb, const Matrix& eyes) {
+  std::array<double, 3> linear{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double value = static_cast<double>(srgb[c]);
+    linear[c] = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  }
+  linear = times(eyes, linear);
+  for (double& value : linear) {
+    value = std::clamp(value, 0.0, 1.0);
+  }
+  const auto xyz = times(kXyzFromLinear, linear);
+  const auto f = [](double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; };
+  const double x = f(xyz[0] / 0.95047);
+  const double y = f(xyz[1]);
+  const double z = f(xyz[2] / 1.08883);
+  return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
+}
+
+/// The least rise of lightness from one anchor to the next, and the least distance of two colours that lie an eighth of
+/// the range apart or more.
+std::pair<double, double> readability(const nodes::Colormap& map, const Matrix& eyes) {
+  double rise = 100.0;
+  double distance = 1000.0;
+  for (std::size_t i = 0; i < nodes::Colormap::kAnchors; ++i) {
+    const auto a = labOf(map.anchors[i], eyes);
+    for (std::size_t j = i + 1; j < nodes::Colormap::kAnchors; ++j) {
+      const auto b = labOf(map.anchors[j], eyes);
+      if (j == i + 1) {
+        rise = std::min(rise, b[0] - a[0]);
+      }
+      if (j >= i + nodes::Colormap::kAnchors / 8) {
+        distance = std::min(distance, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+      }
+    }
+  }
+  return {rise, distance};
+}
+
+TEST(Colormap, TheDefaultIsReadWithAnyEyes) {
+  for (const auto& [name, eyes] : kEyes) {
+    const auto [rise, distance] = readability(*findColormap(nodes::kDefaultColormap), eyes);
+    EXPECT_GT(rise, 0.4) << name << ": darker is always less";
+    EXPECT_GT(distance, 8.0) << name << ": eighths are told apart, and none comes twice";
+  }
+  // Which is more than can be said of the rainbow.
+  const auto [rise, distance] = readability(*findColormap("turbo"), kEyes[2].second);
+  EXPECT_LT(rise, -5.0);
+  EXPECT_LT(distance, 6.0);
 }
 
 TEST(Colormap, ClampsAndSurvivesNan) {

@@ -68,7 +68,7 @@ class DepthGolden : public ScenePictureTest {
 };
 
 TEST_F(DepthGolden, ByDepth) {
-  const auto& layer = add("/camera/depth", {{"point_size", "3"}});
+  const auto& layer = add("/camera/depth", {{"point_size", "3"}, {"colormap", "turbo"}});
   const auto picture = draw(1_s, fromTheSide(), 320, 240);
   EXPECT_EQ(layer.status().code, "Ok") << layer.status().message;
   EXPECT_EQ(layer.counts()[0].second, kColumns * kRows - 400U);

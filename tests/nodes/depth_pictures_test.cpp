@@ -55,7 +55,7 @@ TEST_F(DepthPicture, TakesTheCameraThatCameWithTheImageAndTheFrameThatIsChosen) 
   const auto picture = draw(1_s, fromOptical());
   EXPECT_EQ(layer.status().code, "Ok") << layer.status().message;
   EXPECT_EQ(drawnPixels(picture), 3 * 81);
-  expectNear(pixel(picture, 160, 100), colorAt("turbo", 1.0));
+  expectNear(pixel(picture, 160, 100), colorAt("viridis", 1.0));
   // A topic that is named goes before the camera of the image: its narrow lens puts all points in the middle.
   ASSERT_TRUE(layer.applySettings({{"info_topic", "/depth/camera_info"}}));
   EXPECT_LT(drawnPixels(draw(1_s, fromOptical())), 2 * 81);
@@ -71,9 +71,9 @@ TEST_F(DepthPicture, PutsEachPixelOnItsRayAndColoursItByDepth) {
   const auto picture = draw(1_s, fromOptical());
   EXPECT_EQ(layer.status().code, "Ok") << layer.status().message;
   // x = -2, 0 and 6 m.
-  expectNear(pixel(picture, 80, 100), colorAt("turbo", 0.0));
-  expectNear(pixel(picture, 100, 100), colorAt("turbo", 0.5));
-  expectNear(pixel(picture, 160, 100), colorAt("turbo", 1.0));
+  expectNear(pixel(picture, 80, 100), colorAt("viridis", 0.0));
+  expectNear(pixel(picture, 100, 100), colorAt("viridis", 0.5));
+  expectNear(pixel(picture, 160, 100), colorAt("viridis", 1.0));
   EXPECT_EQ(drawnPixels(picture), 3 * 81);
   EXPECT_EQ(layer.counts(),
             (scenegraph::LayerCounts{{"points", 3}, {"holes", 0}, {"left_out", 0}, {"bytes", 6}, {"residual_npx", 0}}));
@@ -129,7 +129,7 @@ TEST_F(DepthPicture, FallsBackToDepthWithoutARegisteredImage) {
            .build(),
        "map");
   const auto& layer = add("/depth/image_raw", with(kBig, {{"color_mode", "rgb"}}));
-  expectNear(pixel(draw(1_s, fromOptical()), 100, 100), colorAt("turbo", 0.5));
+  expectNear(pixel(draw(1_s, fromOptical()), 100, 100), colorAt("viridis", 0.5));
   EXPECT_EQ(layer.status().level, StatusLevel::Info);
   EXPECT_EQ(layer.status().code, "NoColorImage");
 }

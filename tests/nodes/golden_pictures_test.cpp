@@ -44,7 +44,7 @@ class GoldenPicture : public ScenePictureTest {
 };
 
 TEST_F(GoldenPicture, CloudByHeight) {
-  add("/points", {{"color_field", "z"}, {"point_size", "3"}});
+  add("/points", {{"color_field", "z"}, {"colormap", "turbo"}, {"point_size", "3"}});
   const auto picture = drawRobot();
   EXPECT_TRUE(matchesGolden(picture, "cloud_by_z"));
   EXPECT_THAT(drawnPixels(picture), AllOf(Ge(14000), Le(14600)));
@@ -101,7 +101,7 @@ TEST_F(GoldenPicture, Grid) {
 TEST_F(GoldenPicture, PosesPathOdometryAndPolygon) {
   add("grid");
   add("/pose_array", {{"length", "0.7"}});
-  add("/path", {{"color_field", "time"}, {"line_width", "4"}});
+  add("/path", {{"color_field", "time"}, {"colormap", "turbo"}, {"line_width", "4"}});
   add("/odometry", {{"shape", "arrows"}, {"length", "1"}});
   add("/footprint", {{"fill", "true"}, {"color", "#ffffff"}});
   const auto picture = drawRobot();
@@ -113,7 +113,7 @@ TEST_F(GoldenPicture, PosesPathOdometryAndPolygon) {
 TEST_F(GoldenPicture, EverythingTogether) {
   add("grid");
   add("tf", {{"axis_length", "0.8"}, {"hidden_frames", "utm"}});
-  add("/points", {{"color_field", "z"}});
+  add("/points", {{"color_field", "z"}, {"colormap", "turbo"}});
   const auto picture = drawRobot();
   EXPECT_TRUE(matchesGolden(picture, "everything"));
   EXPECT_THAT(drawnPixels(picture), AllOf(Ge(10500), Le(11000)));

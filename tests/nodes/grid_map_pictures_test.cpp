@@ -54,8 +54,8 @@ TEST_F(GridMapPicture, DrawsTheElevationColouredByItselfWithHoles) {
   open(datasetOf(scene().build()), "map");
   const auto& layer = add("/map", {{"shading", "false"}});
   const auto picture = draw(1_s, fromAbove());
-  expectColor(pixel(picture, 30, 100), "turbo", 1 / 15.0);
-  expectColor(pixel(picture, 165, 100), "turbo", 14 / 15.0);
+  expectColor(pixel(picture, 30, 100), "viridis", 1 / 15.0);
+  expectColor(pixel(picture, 165, 100), "viridis", 14 / 15.0);
   EXPECT_EQ(pixel(picture, 65, 55), (Bytes3{0, 0, 0})) << "the cell without a height, centre (-3.5, 4.5)";
   EXPECT_EQ(pixel(picture, 22, 100), (Bytes3{0, 0, 0})) << "outside the centres of the first column";
   EXPECT_NEAR(drawnPixels(picture), 150 * 150 - 200, 160) << "a hole of a rhombus of two square metres";
@@ -70,9 +70,9 @@ TEST_F(GridMapPicture, ColoursTheSurfaceByAnotherLayer) {
   open(datasetOf(scene().build()), "map");
   auto& layer = add("/map", {{"shading", "false"}, {"color_field", "cost"}, {"missing_color", "#ff00ff"}});
   auto picture = draw(1_s, fromAbove());
-  expectColor(pixel(picture, 50, 150), "turbo", 0.0);
-  expectColor(pixel(picture, 40, 40), "turbo", 0.5);
-  expectColor(pixel(picture, 150, 150), "turbo", 1.0);
+  expectColor(pixel(picture, 50, 150), "viridis", 0.0);
+  expectColor(pixel(picture, 40, 40), "viridis", 0.5);
+  expectColor(pixel(picture, 150, 150), "viridis", 1.0);
   EXPECT_EQ(pixel(picture, 150, 50), (Bytes3{255, 0, 255}));
   ASSERT_TRUE(layer.applySettings({{"range_mode", "manual"}, {"range_max", "200"}, {"colormap", "viridis"}}));
   expectColor(pixel(draw(1_s, fromAbove()), 150, 150), "viridis", 0.5);
@@ -91,7 +91,7 @@ TEST_F(GridMapPicture, LiesFlatWithWholeCellsAndHolesWhereTheColourIsMissing) {
   const auto picture = draw(1_s, fromAbove());
   EXPECT_EQ(drawnPixels(picture), 160 * 160 - 10 * 10);
   EXPECT_EQ(pixel(picture, 65, 55), (Bytes3{0, 0, 0}));
-  expectColor(pixel(picture, 175, 100), "turbo", 1.0);
+  expectColor(pixel(picture, 175, 100), "viridis", 1.0);
 }
 
 TEST_F(GridMapPicture, ShadesSlopesByTheirNormals) {

@@ -61,7 +61,7 @@ class VoxelGolden : public ScenePictureTest {
 };
 
 TEST_F(VoxelGolden, ByAField) {
-  const auto& layer = add("/voxels", {{"color_field", "distance"}});
+  const auto& layer = add("/voxels", {{"color_field", "distance"}, {"colormap", "turbo"}});
   const auto picture = draw(1_s, fromTheSide(), 320, 240);
   EXPECT_EQ(layer.status().code, "Ok") << layer.status().message;
   EXPECT_EQ(layer.counts()[0].second, 32U * 32 * 20);

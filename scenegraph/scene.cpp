@@ -315,6 +315,12 @@ bool Scene::isPending() const {
 }
 
 void Scene::setView(const CameraView& view, const PictureSize& size) {
+  if (osg::StateSet* const state = root().getStateSet(); size.pixel_ratio != 1.0 || state != nullptr) {
+    root()
+        .getOrCreateStateSet()
+        ->getOrCreateUniform("u_pixel_ratio", osg::Uniform::FLOAT)
+        ->set(static_cast<float>(size.pixel_ratio));
+  }
   for (const auto& slot : layers_) {
     if (slot->layer->isVisible()) {
       slot->layer->setView(view, size);

@@ -16,7 +16,7 @@ void main() {
   bool is_drawn = a_depth > 0.0 && a_depth <= u_max_depth && gl_Vertex.z > 0.0;
   // What is not drawn goes outside the clip volume.
   gl_Position = is_drawn ? gl_ModelViewProjectionMatrix * vec4(gl_Vertex.xyz * (a_depth * u_unit), 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
-  gl_PointSize = clamp(u_point_size, 1.0, 255.0);  // what every driver can do
+  gl_PointSize = clamp(u_point_size * u_pixel_ratio, 1.0, 255.0);  // what every driver can do
 
   vec3 color = u_flat_color;
   if (u_color_mode == kRgb) {

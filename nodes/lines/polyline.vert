@@ -105,7 +105,7 @@ void main() {
   vec2 half_screen =
       0.5 * u_viewport_height_px * vec2(gl_ProjectionMatrix[1][1] / gl_ProjectionMatrix[0][0], 1.0);
   vec2 style = texelFetch(u_styles, end_flags / 4).xy;
-  float scale = 0.5 * style.x * (style.y > 0.5 ? gl_ProjectionMatrix[1][1] * half_screen.y : 1.0);
+  float scale = 0.5 * style.x * (style.y > 0.5 ? gl_ProjectionMatrix[1][1] * half_screen.y : u_pixel_ratio);
   bool is_in_metres = style.y > 0.5;
   float radius_a = clamp(is_in_metres ? scale / a.w : scale, 0.5, 8192.0);
   float radius_b = clamp(is_in_metres ? scale / b.w : scale, 0.5, 8192.0);

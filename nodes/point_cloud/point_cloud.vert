@@ -17,7 +17,7 @@ flat out vec4 v_color;
 
 void main() {
   gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
-  float size_px = u_point_size;
+  float size_px = u_point_size * (u_size_in_metres ? 1.0 : u_pixel_ratio);
   if (u_size_in_metres) {
     size_px *= 0.5 * u_viewport_height_px * gl_ProjectionMatrix[1][1] / max(gl_Position.w, 1e-6);
   }

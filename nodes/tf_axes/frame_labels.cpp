@@ -36,6 +36,15 @@ osg::ref_ptr<osg::Node> FrameLabels::make(const std::string& name, double height
   return parts_.makeLabel(text);
 }
 
+void FrameLabels::setHeight(osg::Node& label, double height_px) {
+  osg::Group* const group = label.asGroup();
+  auto* const shown = group == nullptr ? nullptr : dynamic_cast<osgText::Text*>(group->getChild(0));
+  const auto height = static_cast<float>(height_px);
+  if (shown != nullptr && shown->getCharacterHeight() != height) {
+    shown->setCharacterSize(height);
+  }
+}
+
 void FrameLabels::setText(osg::Node& label, const std::string& text, const scenegraph::Color& color) {
   osg::Group* const group = label.asGroup();
   auto* const shown = group == nullptr ? nullptr : dynamic_cast<osgText::Text*>(group->getChild(0));

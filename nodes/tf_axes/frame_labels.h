@@ -13,6 +13,8 @@ namespace stillframe::nodes {
 class FrameLabels {
  public:
   [[nodiscard]] osg::ref_ptr<osg::Node> make(const std::string& name, double height_px, const scenegraph::Color& color);
+  /// Height of a line in pixels of the target. Costs nothing when it is that already.
+  static void setHeight(osg::Node& label, double height_px);
   /// Changes what a label says; its lines, parted by newlines, grow upwards. Costs nothing when it says so already.
   static void setText(osg::Node& label, const std::string& text, const scenegraph::Color& color);
 

@@ -294,7 +294,7 @@ void TfAxesLayer::setView(const scenegraph::CameraView& view, const scenegraph::
     if (at && at->position_px.x >= 0.0 && at->position_px.x <= size.width_px && at->position_px.y >= 0.0 &&
         at->position_px.y <= size.height_px) {
       wishes[i] = {at->position_px,
-                   settings_.label_height_px *
+                   settings_.label_height_px * size.pixel_ratio *
                        glm::dvec2(kWidthOfLetter * static_cast<double>(shown_[i].text.size()), kHeightOfLine),
                    at->depth_m, true};
     }
@@ -314,6 +314,7 @@ void TfAxesLayer::setView(const scenegraph::CameraView& view, const scenegraph::
     if (named < also.size()) {
       text += "\n+ " + std::to_string(also.size() - named) + " more";
     }
+    FrameLabels::setHeight(*shown_[i].label, settings_.label_height_px * size.pixel_ratio);
     writeLabel(shown_[i], text);
   }
 }

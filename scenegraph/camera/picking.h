@@ -16,6 +16,7 @@ namespace stillframe::scenegraph {
 struct PictureSize {
   double width_px = 0.0;
   double height_px = 0.0;
+  double pixel_ratio = 1.0;  ///< device pixels to one of those that settings count in
 };
 
 /// Where a point falls in a picture.

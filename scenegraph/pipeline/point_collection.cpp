@@ -106,6 +106,8 @@ class PointCollector : public osg::NodeVisitor {
     batch.is_size_in_metres = uniforms.get("u_size_in_metres", false);
     if (batch.is_size_in_metres) {
       batch.size *= 0.5F * static_cast<float>(height_px_) * static_cast<float>(clip_from_eye_(1, 1));
+    } else {
+      batch.size *= pixelRatio();
     }
     batch.is_round = uniforms.get("u_round_points", false);
     if (uniforms.has("u_unit")) {
@@ -131,6 +133,15 @@ class PointCollector : public osg::NodeVisitor {
   PointCollection collected;
 
  private:
+  /// What Scene::setView() has set on its root; 1 where nobody has.
+  [[nodiscard]] float pixelRatio() const {
+    for (const osg::Node* const node : getNodePath()) {
+      if (node->getStateSet() != nullptr && node->getStateSet()->getUniform("u_pixel_ratio") != nullptr) {
+        return Uniforms(*node->getStateSet()).get("u_pixel_ratio", 1.0F);
+      }
+    }
+    return 1.0F;
+  }
   [[nodiscard]] const osg::StateSet* stateOfPath() const {
     for (auto node = getNodePath().rbegin(); node != getNodePath().rend(); ++node) {
       const osg::StateSet* const state = (*node)->getStateSet();

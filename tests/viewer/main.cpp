@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <QApplication>
 #include <QSettings>
 #include <QTemporaryDir>
 
 #include "viewer/widget/gl_format.h"
+#include "viewer/window/stall_monitor.h"
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
@@ -12,6 +12,6 @@ int main(int argc, char** argv) {
   const QTemporaryDir settings;
   QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, settings.path());
   stillframe::viewer::prepareApplication();
-  const QApplication app(argc, argv);
+  const stillframe::viewer::MonitoredApplication app(argc, argv);
   return RUN_ALL_TESTS();
 }

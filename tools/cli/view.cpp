@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tools/cli/commands.h"
+#include "tools/cli/effect_arguments.h"
 #include "tools/cli/layer_argument.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/time_argument.h"
@@ -25,6 +26,8 @@ namespace {
 constexpr int kMostViews = 9;
 
 struct ViewCommandOptions {
+  explicit ViewCommandOptions(CLI::App& app) : effects(app) {}
+  EffectArguments effects;
   std::vector<std::string> files;
   RecordingOptions recording;  // its clock and switch; the files are above
   int views = 1;
@@ -36,6 +39,8 @@ struct ViewCommandOptions {
   std::string follow;
   std::string points = "auto";
   std::string screenshot;
+  std::string theme;
+  bool reports_stalls = false;
 };
 
 #ifdef STILLFRAME_HAS_VIEWER
@@ -119,6 +124,15 @@ Result<void> runView(const ViewCommandOptions& options) {
     return std::unexpected(points.error());
   }
   inspector.points = *points;
+  auto effects = options.effects.effects();
+  if (!effects) {
+    return std::unexpected(effects.error());
+  }
+  inspector.effects = std::move(*effects);
+  if (!options.theme.empty()) {
+    inspector.theme = viewer::themeOf(options.theme);
+  }
+  inspector.reports_stalls = options.reports_stalls;
   inspector.layers.only = options.only_named_layers;
   inspector.time = options.time;
   inspector.views = options.views;
@@ -148,7 +162,7 @@ Result<void> runView(const ViewCommandOptions&) {
 }  // namespace
 
 Command addViewCommand(CLI::App& app) {
-  auto options = std::make_shared<ViewCommandOptions>();
+  auto options = std::make_shared<ViewCommandOptions>(app);
   app.add_option("FILE", options->files, "Recordings: the parts of a split one; none: a window that waits for a drop");
   addTransformOptions(app, options->recording);
   addRobotOptions(app, options->recording);
@@ -168,6 +182,10 @@ Command addViewCommand(CLI::App& app) {
       ->allow_extra_args(false);
   app.add_flag("--only", options->only_named_layers, "Draw just the layers named by --layer");
   app.add_option("--screenshot", options->screenshot, "Save a PNG of the window when all is loaded, and quit");
+  app.add_option("--theme", options->theme, "Colours of the window: system, light or dark; default: as chosen last")
+      ->check(CLI::IsMember({"system", "light", "dark"}));
+  app.add_flag("--stalls", options->reports_stalls,
+               "When the window closes, say what has kept it from answering, for how long");
   return [options] { return runView(*options); };
 }
 

@@ -211,6 +211,11 @@ void ViewPanel::setHiddenFrames(const FrameNames& hidden) {
   view_->requestTick();
 }
 
+void ViewPanel::setEffects(const scenegraph::ViewEffects& effects) {
+  effects_->setEffects(effects);
+  view_->setEffects(effects);
+}
+
 ViewState ViewPanel::state() const {
   ViewState state;
   state.shows_layers = layers_button_->isChecked();
@@ -234,8 +239,7 @@ ViewState ViewPanel::state() const {
 void ViewPanel::setState(const ViewState& state) {
   layers_button_->setChecked(state.shows_layers);
   effects_button_->setChecked(state.shows_effects);
-  effects_->setEffects(state.effects);
-  view_->setEffects(state.effects);
+  setEffects(state.effects);
   scenegraph::Scene* scene = view_->scene();
   if (scene == nullptr) {
     return;

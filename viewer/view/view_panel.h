@@ -62,6 +62,8 @@ class ViewPanel : public QWidget {
   [[nodiscard]] FrameNames hiddenFrames() const;
   void setHiddenFrames(const FrameNames& hidden);
 
+  void setEffects(const scenegraph::ViewEffects& effects);
+
   [[nodiscard]] ViewState state() const;
   void setState(const ViewState& state);
 

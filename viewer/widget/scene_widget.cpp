@@ -160,7 +160,7 @@ void SceneWidget::paintGL() {
   walk();
   const scenegraph::CameraView view = shownView();
   if (scene_ != nullptr) {
-    scene_->setView(view, {size_px.width(), size_px.height()});
+    scene_->setView(view, {size_px.width(), size_px.height(), devicePixelRatioF()});
   }
   pipeline_->setView(view);
   pipeline_->setBackground(background_);

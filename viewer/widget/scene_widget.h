@@ -4,6 +4,7 @@
 #include <QOpenGLWidget>
 #include <QString>
 #include <cstdint>
+#include <expected>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,7 +14,7 @@
 #include "scenegraph/passes/view_effects.h"
 #include "scenegraph/pick/scene_pick.h"
 #include "scenegraph/pipeline/gl_debug.h"
-#include "scenegraph/pipeline/view_pipeline.h"
+#include "scenegraph/pipeline/picture.h"
 #include "scenegraph/scene.h"
 #include "viewer/widget/camera_gestures.h"
 #include "viewer/widget/camera_keys.h"
@@ -27,6 +28,7 @@ namespace stillframe::viewer {
 class HelpOverlay;
 class HoverLabel;
 class ViewPicks;
+struct PictureRequest;
 
 /// The 3D view: one Scene, one camera, one pipeline in the widget's own context. GUI thread.
 ///
@@ -91,6 +93,10 @@ class SceneWidget : public QOpenGLWidget {
 
   /// Who draws opaque points (ViewPipeline::setPointWay).
   void setPointWay(scenegraph::PointWay way);
+  /// A picture of what is shown, of any size, whole; blocks until it is drawn. "NotDrawn" before the first frame, and
+  /// what scenegraph::checkPicture() refuses.
+  [[nodiscard]] std::expected<scenegraph::Picture, scenegraph::Status> takePicture(const PictureRequest& request);
+
   /// Share of the points that the last frame has drawn; below 1 the view goes on by itself until all are.
   [[nodiscard]] double pointShare() const;
   /// Frames drawn since the widget was made.

@@ -1,6 +1,7 @@
 #include "viewer/window/icons.h"
 
 #include <QGuiApplication>
+#include <QIconEngine>
 #include <QPainter>
 #include <QPainterPath>
 #include <QPalette>
@@ -9,7 +10,7 @@
 namespace stillframe::viewer {
 namespace {
 
-constexpr int kSize = 48;  // drawn large, scaled down by QIcon
+constexpr qreal kSize = 48.0;  // side of what draw() fills
 
 void triangle(QPainter& painter, qreal x, qreal width) {
   const QPointF points[] = {{x, 10.0}, {x, 38.0}, {x + width, 24.0}};
@@ -91,18 +92,38 @@ void draw(QPainter& painter, const QPen& pen, TransportIcon icon) {
   }
 }
 
+/// Draws at the very size and in the very colours that are asked for: sharp at any scale, right in any theme.
+class TransportEngine : public QIconEngine {
+ public:
+  explicit TransportEngine(TransportIcon icon) : icon_(icon) {}
+
+  void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State /*state*/) override {
+    const auto group = mode == QIcon::Disabled ? QPalette::Disabled : QPalette::Normal;
+    const QColor color = QGuiApplication::palette().color(group, QPalette::WindowText);
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    painter->translate(rect.topLeft());
+    painter->scale(rect.width() / kSize, rect.height() / kSize);
+    painter->setBrush(color);
+    painter->setPen(Qt::NoPen);
+    draw(*painter, QPen(color, 3.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin), icon_);
+    painter->restore();
+  }
+  QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
+    QPixmap pixmap(size);
+    pixmap.fill(Qt::transparent);
+    QPainter painter(&pixmap);
+    paint(&painter, QRect(QPoint(0, 0), size), mode, state);
+    return pixmap;
+  }
+  [[nodiscard]] QIconEngine* clone() const override { return new TransportEngine(icon_); }
+
+ private:
+  TransportIcon icon_;
+};
+
 }  // namespace
 
-QIcon transportIcon(TransportIcon icon) {
-  QPixmap pixmap(kSize, kSize);
-  pixmap.fill(Qt::transparent);
-  const QColor color = QGuiApplication::palette().color(QPalette::WindowText);
-  QPainter painter(&pixmap);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setBrush(color);
-  painter.setPen(Qt::NoPen);
-  draw(painter, QPen(color, 3.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin), icon);
-  return QIcon(pixmap);
-}
+QIcon transportIcon(TransportIcon icon) { return QIcon(new TransportEngine(icon)); }
 
 }  // namespace stillframe::viewer

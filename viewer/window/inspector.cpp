@@ -1,11 +1,12 @@
 #include "viewer/window/inspector.h"
 
-#include <QApplication>
 #include <QLoggingCategory>
 #include <QString>
+#include <cstdio>
 
 #include "viewer/widget/gl_format.h"
 #include "viewer/window/inspector_window.h"
+#include "viewer/window/stall_monitor.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -29,7 +30,7 @@ std::expected<int, scenegraph::Status> runInspector(int argc, char** argv, const
                                                     const RecordingOpener& opener) {
   prepareApplication();
   const bool may_fall_back = allowNoDisplay();
-  const QApplication app(argc, argv);
+  MonitoredApplication app(argc, argv);
   if (may_fall_back) {
     QLoggingCategory::setFilterRules(QString());
     qunsetenv(kPlatform);
@@ -43,9 +44,23 @@ std::expected<int, scenegraph::Status> runInspector(int argc, char** argv, const
   }
   QApplication::setApplicationName(QStringLiteral("Stillframe"));
   QApplication::setOrganizationName(QStringLiteral("Stillframe"));
+  applyTheme(options.theme.value_or(rememberedTheme()));
+  StallMonitor monitor;
   InspectorWindow window(opener, options);
+  if (options.reports_stalls) {
+    QObject::connect(&window, &InspectorWindow::loaded, &app, [&monitor] {
+      std::printf("Until the recording was loaded. %s", monitor.report().c_str());
+      monitor.reset();
+    });
+    app.watch(&monitor);
+  }
   window.show();
-  return QApplication::exec();
+  const int code = QApplication::exec();
+  if (options.reports_stalls) {
+    app.watch(nullptr);
+    std::printf("Since then. %s", monitor.report().c_str());
+  }
+  return code;
 }
 
 }  // namespace stillframe::viewer

@@ -8,9 +8,11 @@
 
 #include "scenegraph/camera/follow.h"
 #include "scenegraph/pipeline/view_pipeline.h"
+#include "scenegraph/passes/view_effects.h"
 #include "scenegraph/status.h"
 #include "viewer/layers/layer_choices.h"
 #include "viewer/window/dataset_loader.h"
+#include "viewer/window/theme.h"
 
 namespace stillframe::viewer {
 
@@ -24,10 +26,13 @@ struct InspectorOptions {
   scenegraph::FollowMode follow = scenegraph::FollowMode::Off;
   LayerChoices layers = {};
   scenegraph::PointWay points = scenegraph::PointWay::Auto;  ///< who draws opaque points
+  scenegraph::ViewEffects effects = {};  ///< of every view at first
   int views = 1;
   int width = 1280;  ///< of the window
   int height = 800;
   std::optional<std::filesystem::path> screenshot = {};  ///< save a picture of the complete window there, then quit
+  std::optional<Theme> theme = {};                       ///< absent: as chosen last
+  bool reports_stalls = false;                           ///< print what kept the window from answering, at the end
 };
 
 /// Runs `stillframe view`: makes the application (whose arguments are argc and argv) and a window, until it is closed.

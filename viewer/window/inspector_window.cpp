@@ -21,7 +21,11 @@
 #include "viewer/pick/inspect_dock.h"
 #include "viewer/time/time_bar.h"
 #include "viewer/widget/scene_widget.h"
+#include "viewer/window/keyboard_guard.h"
 #include "viewer/window/message_bar.h"
+#include "viewer/window/picture_dialog.h"
+#include "viewer/window/picture_saver.h"
+#include "viewer/window/theme.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -92,8 +96,7 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
     frame_tree_->setTime(time);
     is_time_untouched_ = false;
   });
-  connect(time_bar_, &TimeBar::refused, this,
-          [this](const QString& message) { messages_->showMessage(scenegraph::StatusLevel::Warn, message); });
+  connect(time_bar_, &TimeBar::refused, messages_, &MessageBar::warn);
   connectFrames();
 
   loader_ = new DatasetLoader(std::move(opener), this);
@@ -165,6 +168,9 @@ void InspectorWindow::buildMenus() {
       openFiles(std::move(files));
     }
   });
+  auto* saver = new PictureSaver(*executor_, this);
+  addPictureActions(*file, *this, *saver, [this]() -> SceneWidget& { return active_view_->view(); });
+  connect(saver, &PictureSaver::failed, messages_, &MessageBar::warn);
   QAction* quit = file->addAction(tr("&Quit"));
   quit->setShortcut(QKeySequence::Quit);
   connect(quit, &QAction::triggered, this, &QWidget::close);
@@ -177,9 +183,11 @@ void InspectorWindow::buildMenus() {
   view->addSeparator();
   view->addAction(findChild<QDockWidget*>(QStringLiteral("framesDock"))->toggleViewAction());
   view->addAction(inspect_->toggleViewAction());
+  addThemeMenu(*view);
 }
 
 void InspectorWindow::buildShortcuts() {
+  qApp->installEventFilter(new KeyboardGuard(this));
   const auto bind = [this](const QKeySequence& keys, auto action) {
     connect(new QShortcut(keys, this), &QShortcut::activated, time_bar_, action);
   };
@@ -212,8 +220,7 @@ ViewPanel& InspectorWindow::addView(ViewPanel* like, Qt::Orientation orientation
   });
   connect(panel, &ViewPanel::splitRequested, this, [this, panel](Qt::Orientation wanted) { addView(panel, wanted); });
   connect(panel, &ViewPanel::closeRequested, this, [this, panel] { closeView(*panel); });
-  connect(panel, &ViewPanel::refused, this,
-          [this](const QString& message) { messages_->showMessage(scenegraph::StatusLevel::Warn, message); });
+  connect(panel, &ViewPanel::refused, messages_, &MessageBar::warn);
   connect(&panel->view(), &SceneWidget::frameHovered, this,
           [this](const QString& frame) { statusBar()->showMessage(frame); });
 
@@ -229,9 +236,8 @@ ViewPanel& InspectorWindow::addView(ViewPanel* like, Qt::Orientation orientation
     splitter = inner;
   }
   splitter->insertWidget(like == nullptr ? splitter->count() : splitter->indexOf(like) + 1, panel);
-  QList<int> equal;
-  equal.fill(1000, splitter->count());
-  splitter->setSizes(equal);
+  splitter->setSizes(QList<int>(splitter->count(), 1000));
+  panel->setEffects(options_.effects);
   fillView(*panel);
   ViewState state = like == nullptr ? panel->state() : like->state();
   state.shows_layers = views_.size() == 1 && options_.views <= 1;  // side by side, the picture needs the room
@@ -239,6 +245,7 @@ ViewPanel& InspectorWindow::addView(ViewPanel* like, Qt::Orientation orientation
     like->show();
   }
   panel->setState(state);
+  makeReachable(*this);
   return *panel;
 }
 
@@ -307,9 +314,8 @@ void InspectorWindow::takeRange() {
   if (is_time_untouched_) {
     const auto wanted = options_.time ? parseTime(QString::fromStdString(*options_.time), times) : std::nullopt;
     if (options_.time && !wanted) {
-      messages_->showMessage(scenegraph::StatusLevel::Warn,
-                             tr("\"%1\" is not a time: write nanoseconds, +SECONDS, start or end")
-                                 .arg(QString::fromStdString(*options_.time)));
+      messages_->warn(tr("\"%1\" is not a time: write nanoseconds, +SECONDS, start or end")
+                          .arg(QString::fromStdString(*options_.time)));
     }
     time_bar_->setTime(wanted.value_or(times.first));
     is_time_untouched_ = true;

@@ -15,6 +15,7 @@ class MessageBar : public QFrame {
  public:
   explicit MessageBar(QWidget* parent = nullptr);
   void showMessage(scenegraph::StatusLevel level, const QString& text);
+  void warn(const QString& text) { showMessage(scenegraph::StatusLevel::Warn, text); }
   /// "" when hidden.
   [[nodiscard]] QString text() const;
 

@@ -1,0 +1,353 @@
+// What every window is judged by: colours, keys, names for screen readers, pictures of it, and how long it keeps still.
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <QAccessible>
+#include <QAction>
+#include <QComboBox>
+#include <QDBusVariant>
+#include <QDockWidget>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
+#include <QSettings>
+#include <QSpinBox>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QTimer>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <set>
+
+#include "tests/viewer/viewer_support.h"
+#include "viewer/frames/frame_tree.h"
+#include "viewer/time/time_bar.h"
+#include "viewer/widget/scene_widget.h"
+#include "viewer/window/desktop_colors.h"
+#include "viewer/window/icons.h"
+#include "viewer/window/inspector_window.h"
+#include "viewer/window/message_bar.h"
+#include "viewer/window/picture_dialog.h"
+#include "viewer/window/picture_saver.h"
+#include "viewer/window/stall_monitor.h"
+#include "viewer/window/theme.h"
+
+namespace stillframe::viewer {
+namespace {
+
+using test::settle;
+using test::waitFor;
+
+class Look : public testing::Test {
+ protected:
+  void open(InspectorOptions options = {.files = {"robot.mcap"}}) {
+    window_ = std::make_unique<InspectorWindow>(test::fakeOpener(), std::move(options));
+    window_->show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    ASSERT_TRUE(waitFor([&] { return window_->isComplete(); }));
+    settle();
+    window_->activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
+  }
+  void TearDown() override { applyTheme(Theme::System); }
+  SceneWidget& view() { return window_->views().front()->view(); }
+
+  std::unique_ptr<InspectorWindow> window_;
+};
+
+TEST_F(Look, ThemesAreSwitchedInTheMenuAndRemembered) {
+  open();
+  const auto lightness = [&] { return window_->palette().color(QPalette::Window).lightnessF(); };
+  QMenu* const themes = window_->findChild<QMenu*>(QStringLiteral("themes"));
+  ASSERT_NE(themes, nullptr);
+  ASSERT_EQ(themes->actions().size(), 3);
+  themes->actions().at(2)->trigger();
+  settle();
+  EXPECT_LT(lightness(), 0.3F);
+  EXPECT_GT(window_->palette().color(QPalette::WindowText).lightnessF(), 0.7F);
+  EXPECT_EQ(rememberedTheme(), Theme::Dark);
+  themes->actions().at(1)->trigger();
+  settle();
+  EXPECT_GT(lightness(), 0.8F);
+  EXPECT_EQ(rememberedTheme(), Theme::Light);
+  themes->actions().at(0)->trigger();
+  EXPECT_EQ(rememberedTheme(), Theme::System);
+  for (const Theme theme : {Theme::System, Theme::Light, Theme::Dark}) {
+    EXPECT_EQ(themeOf(toString(theme)), theme);
+  }
+  EXPECT_EQ(themeOf("purple"), std::nullopt);
+}
+
+TEST_F(Look, TextStandsOutFromItsGroundInBothThemes) {
+  // Contrast as WCAG 2 has it: 4.5 for text.
+  const auto luminance = [](const QColor& color) {
+    const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+    return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) + 0.0722 * linear(color.blueF());
+  };
+  const auto contrast = [&](QPalette::ColorRole text, QPalette::ColorRole ground) {
+    const double a = luminance(QApplication::palette().color(text));
+    const double b = luminance(QApplication::palette().color(ground));
+    return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
+  };
+  for (const Theme theme : {Theme::Light, Theme::Dark}) {
+    applyTheme(theme);
+    for (const auto& [text, ground] : {std::pair{QPalette::WindowText, QPalette::Window},
+                                       {QPalette::Text, QPalette::Base},
+                                       {QPalette::Text, QPalette::AlternateBase},
+                                       {QPalette::ButtonText, QPalette::Button},
+                                       {QPalette::ToolTipText, QPalette::ToolTipBase}}) {
+      EXPECT_GT(contrast(text, ground), 7.0) << toString(theme) << ' ' << text;
+    }
+    EXPECT_GT(contrast(QPalette::HighlightedText, QPalette::Highlight), 3.0) << toString(theme);
+    EXPECT_GT(contrast(QPalette::PlaceholderText, QPalette::Base), 3.0) << toString(theme);
+  }
+}
+
+TEST_F(Look, TheDesktopsWishIsUnderstood) {
+  const auto variant = [](unsigned value) { return QVariant::fromValue(QDBusVariant(value)); };
+  EXPECT_EQ(DesktopColors::prefersDark(variant(1)), true);
+  EXPECT_EQ(DesktopColors::prefersDark(variant(2)), false);
+  EXPECT_EQ(DesktopColors::prefersDark(variant(0)), std::nullopt);
+  EXPECT_EQ(DesktopColors::prefersDark(QVariant::fromValue(QDBusVariant(variant(1)))), true) << "as Read() answers";
+  EXPECT_EQ(DesktopColors::prefersDark(QStringLiteral("dark")), std::nullopt);
+  EXPECT_EQ(DesktopColors::prefersDark({}), std::nullopt);
+}
+
+TEST_F(Look, SignsAreSharpAtEveryScaleAndOfTheThemesColour) {
+  const auto darkest = [](const QImage& image) {
+    qreal value = 1.0;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        if (image.pixelColor(x, y).alphaF() > 0.9F) {
+          value = std::min<qreal>(value, image.pixelColor(x, y).lightnessF());
+        }
+      }
+    }
+    return value;
+  };
+  const QIcon icon = transportIcon(TransportIcon::Play);
+  applyTheme(Theme::Light);
+  EXPECT_LT(darkest(icon.pixmap(32, 32).toImage()), 0.3);
+  EXPECT_EQ(icon.pixmap(96, 96).width(), 96) << "drawn, not enlarged";
+  applyTheme(Theme::Dark);
+  EXPECT_GT(darkest(icon.pixmap(32, 32).toImage()), 0.7) << "the same icon";
+}
+
+TEST_F(Look, TabReachesEveryControlAndEachHasAName) {
+  open();
+  std::set<QWidget*> wanted;
+  for (QWidget* const widget : window_->findChildren<QWidget*>()) {
+    const bool is_control =
+        qobject_cast<QToolButton*>(widget) != nullptr || qobject_cast<QComboBox*>(widget) != nullptr ||
+        qobject_cast<QSlider*>(widget) != nullptr ||
+        (qobject_cast<QLineEdit*>(widget) != nullptr && qobject_cast<QComboBox*>(widget->parentWidget()) == nullptr &&
+         qobject_cast<QAbstractSpinBox*>(widget->parentWidget()) == nullptr);
+    const bool is_qts_own = widget->objectName().startsWith(QStringLiteral("qt_")) ||
+                            qobject_cast<QLineEdit*>(widget->parentWidget()) != nullptr;
+    const bool is_within_reach = widget->isVisible() && widget->isEnabled() && !is_qts_own;
+    // A dock's own buttons are in its title bar, which the keyboard does not need: the dock is in the View menu.
+    if (is_control && is_within_reach && qobject_cast<QDockWidget*>(widget->parentWidget()) == nullptr) {
+      wanted.insert(widget);
+    }
+  }
+  ASSERT_GT(wanted.size(), 12U);
+  for (QWidget* const widget : wanted) {
+    QAccessibleInterface* const said = QAccessible::queryAccessibleInterface(widget);
+    ASSERT_NE(said, nullptr);
+    EXPECT_FALSE(said->text(QAccessible::Name).isEmpty() && said->text(QAccessible::Value).isEmpty())
+        << widget->metaObject()->className() << ' ' << widget->objectName().toStdString();
+  }
+  view().setFocus();
+  for (int i = 0; i < 400 && !wanted.empty(); ++i) {
+    QWidget* const focus = QApplication::focusWidget();
+    ASSERT_NE(focus, nullptr);
+    wanted.erase(focus);
+    wanted.erase(focus->parentWidget());
+    QTest::keyClick(focus, Qt::Key_Tab);
+  }
+  for (const QWidget* const widget : wanted) {
+    ADD_FAILURE() << "Tab does not come to " << widget->metaObject()->className() << ' '
+                  << widget->objectName().toStdString();
+  }
+}
+
+TEST_F(Look, KeysOfAFocusedControlAreItsOwn) {
+  open();
+  auto* const loop = window_->findChild<QToolButton*>(QStringLiteral("loop"));
+  loop->setFocus();
+  QTest::keyClick(loop, Qt::Key_Space);
+  EXPECT_TRUE(loop->isChecked());
+  EXPECT_FALSE(window_->timeBar().isPlaying());
+  auto* const frames = window_->findChild<QTreeWidget*>(QStringLiteral("frames"));
+  frames->setFocus();
+  frames->setCurrentItem(frames->topLevelItem(0));
+  const auto time = window_->timeBar().time();
+  QTest::keyClick(frames, Qt::Key_Left);
+  EXPECT_FALSE(frames->topLevelItem(0)->isExpanded());
+  EXPECT_EQ(window_->timeBar().time(), time);
+  view().setFocus();
+  QTest::keyClick(&view(), Qt::Key_Space);
+  EXPECT_TRUE(window_->timeBar().isPlaying());
+}
+
+TEST_F(Look, EveryMenuHasAKeyAndNoTwoActionsShareAShortcut) {
+  open();
+  std::set<QString> taken;
+  for (const QAction* const menu : window_->menuBar()->actions()) {
+    EXPECT_TRUE(menu->text().contains(QLatin1Char('&'))) << menu->text().toStdString();
+    for (const QAction* const action : menu->menu()->actions()) {
+      const QString keys = action->shortcut().toString();
+      EXPECT_TRUE(keys.isEmpty() || taken.insert(keys).second) << keys.toStdString();
+    }
+  }
+}
+
+struct RgbaFile {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
+RgbaFile readRgba(const QString& file) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  EXPECT_NE(png_image_begin_read_from_file(&image, file.toLocal8Bit().constData()), 0) << file.toStdString();
+  image.format = PNG_FORMAT_RGBA;
+  std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(image));
+  EXPECT_NE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr), 0);
+  return {static_cast<int>(image.width), static_cast<int>(image.height), std::move(bytes)};
+}
+
+TEST_F(Look, APictureOfTheViewHasAnySizeAndAlpha) {
+  open({.files = {"robot.mcap"}, .time = "+1"});
+  const QTemporaryDir folder;
+  const auto executor = scenegraph::makeThreadPoolExecutor(1);
+  PictureSaver saver(*executor);
+  QStringList saved;
+  QObject::connect(&saver, &PictureSaver::saved, &saver, [&](const QString& file) { saved << file; });
+  QString error;
+  QObject::connect(&saver, &PictureSaver::failed, &saver, [&](const QString& message) { error = message; });
+  const QImage before = view().grabFramebuffer();
+
+  saver.saveView(view(), {.width_px = 700, .height_px = 300, .is_transparent = true}, folder.filePath("clear.png"));
+  saver.saveView(view(), {.width_px = 64, .height_px = 64}, folder.filePath("solid.png"));
+  saver.saveView(view(), {.width_px = 64, .height_px = 64}, folder.filePath("light.exr"));
+  EXPECT_EQ(saver.pending(), 3);
+  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  EXPECT_EQ(saved.size(), 3) << error.toStdString();
+  const RgbaFile clear = readRgba(folder.filePath("clear.png"));
+  EXPECT_EQ(clear.width, 700);
+  EXPECT_EQ(clear.height, 300);
+  std::size_t nothing = 0;
+  std::size_t opaque = 0;
+  for (std::size_t i = 3; i < clear.bytes.size(); i += 4) {
+    nothing += clear.bytes[i] == 0 ? 1U : 0U;
+    opaque += clear.bytes[i] == 255 ? 1U : 0U;
+  }
+  EXPECT_GT(nothing, 50'000U);
+  EXPECT_GT(opaque, 1'000U);
+  const RgbaFile solid = readRgba(folder.filePath("solid.png"));
+  for (std::size_t i = 3; i < solid.bytes.size(); i += 4) {
+    ASSERT_EQ(solid.bytes[i], 255);
+  }
+  EXPECT_GT(QFileInfo(folder.filePath("light.exr")).size(), 1000);
+
+  settle();
+  EXPECT_EQ(view().grabFramebuffer(), before) << "the view goes on as it was";
+  EXPECT_EQ(view().glMessages(), 0U);
+  EXPECT_EQ(view().takePicture({.width_px = 1'000'000, .height_px = 10}).error().code, "TooLarge");
+  EXPECT_EQ(view().takePicture({.width_px = 0, .height_px = 10}).error().code, "BadSize");
+  EXPECT_EQ(SceneWidget().takePicture({}).error().code, "NotDrawn");
+  saver.saveView(view(), {.width_px = 8, .height_px = 8}, folder.filePath("no/such/a.png"));
+  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  EXPECT_TRUE(error.contains(QStringLiteral("no/such/a.png")));
+}
+
+TEST_F(Look, APictureOfTheWindowIsAllOfIt) {
+  open();
+  const QTemporaryDir folder;
+  const auto executor = scenegraph::makeThreadPoolExecutor(1);
+  PictureSaver saver(*executor);
+  saver.saveWindow(*window_, folder.filePath("window.png"));
+  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  const QImage image(folder.filePath("window.png"));
+  EXPECT_EQ(image.size(), window_->size() * window_->devicePixelRatioF());
+  EXPECT_GT(test::drawnPixels(image), 1000);
+}
+
+TEST_F(Look, TheMenuAsksForSizeAndFile) {
+  open();
+  const QTemporaryDir folder;
+  QTimer::singleShot(0, window_.get(), [&] {
+    auto* const dialog = qobject_cast<PictureDialog*>(QApplication::activeModalWidget());
+    ASSERT_NE(dialog, nullptr);
+    dialog->findChild<QSpinBox*>(QStringLiteral("width"))->setValue(123);
+    EXPECT_EQ(dialog->request().width_px, 123);
+    EXPECT_FALSE(dialog->request().is_transparent);
+    dialog->reject();
+  });
+  window_->findChild<QAction*>(QStringLiteral("savePicture"))->trigger();
+  EXPECT_EQ(window_->messageBar().text(), QString());
+}
+
+TEST_F(Look, EffectsAskedForAtTheStartAreInEveryView) {
+  InspectorOptions options{.files = {"robot.mcap"}, .views = 2};
+  options.effects.setOn("edl", true);
+  ASSERT_TRUE(options.effects.apply("edl", {{"strength", "2"}}));
+  const auto wanted = options.effects;
+  open(std::move(options));
+  for (ViewPanel* const panel : window_->views()) {
+    EXPECT_EQ(panel->view().effects(), wanted);
+    EXPECT_EQ(panel->state().effects, wanted);
+  }
+}
+
+TEST(StallMonitor, CountsWhatIsLongAndNamesIt) {
+  StallMonitor monitor;
+  for (int i = 0; i < 99; ++i) {
+    monitor.record("quick", 1.0);
+  }
+  monitor.record("slow", 80.0);
+  EXPECT_EQ(monitor.events(), 100U);
+  EXPECT_EQ(monitor.stalls(), 1U);
+  EXPECT_EQ(monitor.longest().front().what, "slow");
+  EXPECT_EQ(monitor.longest().size(), 10U);
+  EXPECT_NEAR(monitor.percentile(0.5), 1.0, 0.2);
+  EXPECT_EQ(monitor.percentile(1.0), 80.0);
+  EXPECT_NE(monitor.report().find("80.0 ms  slow"), std::string::npos);
+  monitor.reset();
+  EXPECT_EQ(monitor.events(), 0U);
+}
+
+TEST(StallMonitor, WatchesTheEventsOfTheApplication) {
+  auto* const app = dynamic_cast<MonitoredApplication*>(QCoreApplication::instance());
+  ASSERT_NE(app, nullptr);
+  StallMonitor monitor;
+  app->watch(&monitor);
+  QObject sleeper;
+  sleeper.setObjectName(QStringLiteral("sleeper"));
+  bool is_done = false;
+  QTimer::singleShot(0, &sleeper, [&] {
+    QThread::msleep(60);
+    is_done = true;
+  });
+  ASSERT_TRUE(waitFor([&] { return is_done; }));
+  EXPECT_GE(monitor.stalls(), 1U);
+  EXPECT_GE(monitor.longest().front().ms, 60.0);
+  // A loop within an event keeps nothing waiting: its own events are what counts.
+  monitor.reset();
+  is_done = false;
+  QTimer::singleShot(0, &sleeper, [&] {
+    QEventLoop loop;
+    QTimer::singleShot(120, &loop, &QEventLoop::quit);
+    loop.exec();
+    is_done = true;
+  });
+  ASSERT_TRUE(waitFor([&] { return is_done; }));
+  app->watch(nullptr);
+  EXPECT_EQ(monitor.stalls(), 0U) << monitor.report();
+  EXPECT_GT(monitor.events(), 0U);
+}
+
+}  // namespace
+}  // namespace stillframe::viewer

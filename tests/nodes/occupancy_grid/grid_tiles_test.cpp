@@ -17,7 +17,7 @@ using nodes::FlatKind;
 class GridTilesTest : public testing::Test {
  protected:
   GridTilesTest() {
-    std::vector<std::int8_t> cells(600 * 500);
+    std::vector<std::int8_t> cells(std::size_t{600} * 500);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       cells[i] = static_cast<std::int8_t>(i % 7);
     }

@@ -177,7 +177,7 @@ TEST_F(ViewPipelineTest, DrawsAnArrayThatLiesWhereAnotherLayBefore) {
       root_->addChild(shape);
       ASSERT_TRUE(pipeline_->renderLinear(32, 32));  // nothing is drawn after the scene, which would hide it
       const LinearFrame frame = pipeline_->readLinear();
-      const auto red = [&](std::size_t x) { return frame.rgba[4 * (32 * 16 + x)] > 0.0F; };
+      const auto red = [&](std::size_t x) { return frame.rgba[4 * (std::size_t{32} * 16 + x)] > 0.0F; };
       EXPECT_EQ(red(8), side < 0) << side << (is_attribute ? ", an attribute" : "");
       EXPECT_EQ(red(24), side > 0) << side << (is_attribute ? ", an attribute" : "");
       root_->removeChildren(0, 1);

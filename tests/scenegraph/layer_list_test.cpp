@@ -118,7 +118,7 @@ TEST_F(LayerListTest, AListMakesAnotherSceneTheSame) {
 
   Scene other(builder.raw(), test::fakeTypes(), *executor);
   other.addDefaultLayers();
-  EXPECT_THAT(applyLayerList(list, other), IsEmpty());
+  EXPECT_THAT(applyLayerList(list, other).waiting, IsEmpty());
   other.addDefaultLayers();
   EXPECT_EQ(layerList(other), list);
   EXPECT_THAT(ids(other), ElementsAre("/c#2", "/a", "/c"));
@@ -129,11 +129,16 @@ TEST_F(LayerListTest, AppliesWhatItCanAndSaysWhatNot) {
   const LayerList list{{{.id = "/gone", .title = "", .is_visible = true, .settings = {}},
                         {.id = "/b", .title = "", .is_visible = true, .settings = {{"size", "4"}, {"colour", "x"}}}},
                        {}};
-  const auto refused = applyLayerList(list, scene);
-  ASSERT_EQ(refused.size(), 2U);
-  EXPECT_EQ(refused[0].code, "UnknownTopic");
-  EXPECT_EQ(refused[1].code, "UnknownSetting");
-  EXPECT_THAT(refused[1].message, HasSubstr("'/b'"));
+  const AppliedLayers applied = applyLayerList(list, scene);
+  ASSERT_EQ(applied.absent.size(), 1U);
+  EXPECT_EQ(applied.absent[0].code, "UnknownTopic");
+  ASSERT_EQ(applied.refused.size(), 1U);
+  EXPECT_EQ(applied.refused[0].code, "UnknownSetting");
+  EXPECT_THAT(applied.refused[0].message, HasSubstr("'/b'"));
+  const LayerList again = layerList(scene, applied.waiting);
+  EXPECT_EQ(again.layers.back(), list.layers[0]) << "what found no place is saved again";
+  EXPECT_EQ(again.layers.front().settings.at("colour"), "x");
+  EXPECT_EQ(again.layers.front().settings.at("size"), "4");
   EXPECT_EQ(size(scene, "/b"), "4");
   EXPECT_THAT(ids(scene), ElementsAre("/b", "/a", "/c")) << "what the list does not name stays";
 }

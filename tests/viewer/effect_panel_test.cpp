@@ -70,14 +70,15 @@ TEST(ViewPanelEffects, AreDrawnSavedAndRestored) {
   EXPECT_EQ(panel.view().problem(), QString());
   EXPECT_EQ(panel.view().glMessages(), 0U);
 
-  const ViewState state = panel.state();
-  EXPECT_TRUE(state.effects.isOn("ssao") && state.shows_effects);
+  const scenegraph::ViewLayout layout = panel.layout();
+  EXPECT_EQ(layout.effects.at("ssao"), "true");
+  EXPECT_TRUE(layout.shows_effects);
   ViewPanel other;
   other.setDataset(test::makeRobotDataset(), *executor, {});
-  other.setState(state);
-  EXPECT_EQ(other.view().effects(), state.effects);
-  EXPECT_EQ(other.effectPanel().effects(), state.effects);
-  EXPECT_EQ(other.state().effects, state.effects);
+  other.restore(layout);
+  EXPECT_EQ(other.view().effects(), panel.view().effects());
+  EXPECT_EQ(other.effectPanel().effects(), panel.view().effects());
+  EXPECT_EQ(other.layout().effects, layout.effects);
 }
 
 }  // namespace

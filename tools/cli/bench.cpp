@@ -207,7 +207,10 @@ Result<void> benchFile(std::string file, std::vector<BenchResult>& results, std:
     }
     results.push_back({"sample recording of 10 s, made", made_s * 1e3, "ms", 2000.0});
   }
-  return benchRecording(file, results, renderer);
+  if (const auto done = benchRecording(file, results, renderer); !done) {
+    return done;
+  }
+  return benchViews(file, results);
 }
 
 Result<void> runBench(const BenchOptions& options) {

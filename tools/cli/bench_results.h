@@ -69,6 +69,8 @@ void benchTicks(std::vector<BenchResult>& results);
 /// The slider of a recording dragged there and back, twice: from a position to its picture, and what keeps the thread
 /// of the window. Opening it, beside reading what that needs.
 [[nodiscard]] Result<void> benchScrub(const std::string& file, std::vector<BenchResult>& results);
+/// Memory and time of 1, 2 and 4 views of one recording, each in a fixed frame of its own.
+[[nodiscard]] Result<void> benchViews(const std::string& file, std::vector<BenchResult>& results);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
 

@@ -72,10 +72,13 @@ std::vector<std::string> EffectArguments::spelledOut(const std::vector<std::stri
   return spelled;
 }
 
-Result<ViewEffects> EffectArguments::effects() const {
-  ViewEffects effects;
+Result<ViewEffects> EffectArguments::effects(ViewEffects effects) const {
   for (const auto& [name, typed] : flags_) {
-    if (typed.empty() || typed == "false") {
+    if (typed.empty()) {
+      continue;
+    }
+    if (typed == "false") {
+      effects.setOn(name, false);
       continue;
     }
     if (typed != "true" && !typed.starts_with(':')) {
@@ -87,7 +90,10 @@ Result<ViewEffects> EffectArguments::effects() const {
   }
   const std::string curve = tonemap_.substr(0, tonemap_.find(':'));
   if (!tonemap_.empty() || !exposure_.empty()) {
-    SettingTexts settings{{"curve", tonemap_.empty() ? "none" : curve}};
+    SettingTexts settings;
+    if (!tonemap_.empty() || !effects.isOn("tonemap")) {
+      settings["curve"] = tonemap_.empty() ? "none" : curve;
+    }
     if (!exposure_.empty()) {
       settings["exposure"] = exposure_;
     }
@@ -100,7 +106,9 @@ Result<ViewEffects> EffectArguments::effects() const {
     const SettingTexts kept = effects.settings("tonemap");
     effects.setOn("tonemap", kept.at("curve") != "none" || kept.at("exposure") != "0");
   }
-  if (const std::string mode = aa_.substr(0, aa_.find(':')); !aa_.empty() && aa_ != "none") {
+  if (aa_ == "none") {
+    effects.setOn("aa", false);
+  } else if (const std::string mode = aa_.substr(0, aa_.find(':')); !aa_.empty()) {
     if (const auto done = switchOn(effects, "aa", "--aa", aa_, {{"mode", mode}}); !done) {
       return std::unexpected(done.error());
     }

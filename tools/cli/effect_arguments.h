@@ -18,7 +18,8 @@ namespace stillframe::cli {
 class EffectArguments {
  public:
   explicit EffectArguments(CLI::App& command);
-  [[nodiscard]] Result<scenegraph::ViewEffects> effects() const;
+  /// `effects` with what the command line says of them.
+  [[nodiscard]] Result<scenegraph::ViewEffects> effects(scenegraph::ViewEffects effects = {}) const;
 
   /// The words of a command line with `--ssao:radius=1` written as CLI11 reads it.
   [[nodiscard]] static std::vector<std::string> spelledOut(const std::vector<std::string>& words);

@@ -36,6 +36,7 @@ Result<void> runExport(const ExportCommandOptions& options) {
   }
   std::printf("%s: %lld ns, fixed frame '%s'\n", printable(options.out).c_str(),
               static_cast<long long>(session.time().ns), printable(session.scene().fixedFrame()).c_str());
+  printLines("layout", session.layoutNotes());
   printRemarks(session.scene(), session.scene().dataset());
   return {};
 }

@@ -40,6 +40,12 @@ Json problemsJson(std::span<const scenegraph::Problem> problems) {
   return all;
 }
 
+void printLines(std::string_view what, std::span<const std::string> lines) {
+  for (const std::string& line : lines) {
+    std::printf("  %s: %s\n", std::string(what).c_str(), printable(line).c_str());
+  }
+}
+
 void printRemarks(const scenegraph::Scene& scene, const scenegraph::Dataset& dataset) {
   for (const auto& slot : scene.layers()) {
     const scenegraph::Status& status = slot->layer->status();

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "scenegraph/scene.h"
 #include "tools/cli/json_text.h"
@@ -11,6 +13,8 @@ namespace stillframe::cli {
 [[nodiscard]] Json layersJson(const scenegraph::Scene& scene);
 /// The faults found in the recording: code, message, count.
 [[nodiscard]] Json problemsJson(std::span<const scenegraph::Problem> problems);
+/// "  WHAT: LINE" on stdout for each.
+void printLines(std::string_view what, std::span<const std::string> lines);
 /// A line on stdout for each layer that has something to say, and for each problem.
 void printRemarks(const scenegraph::Scene& scene, const scenegraph::Dataset& dataset);
 

@@ -187,6 +187,7 @@ Json runJson(const Run& run, SceneSession& session, scenegraph::OffscreenRendere
           {"points", pointsJson(frame)},
           {"layers", layersJson(session.scene())},
           {"renderer", renderer.context().info().renderer},
+          {"layout_notes", session.layoutNotes()},
           {"problems", problemsJson(session.scene().dataset().problems())}};
 }
 
@@ -206,7 +207,7 @@ Result<Run> prepare(const RenderCommandOptions& options) {
     }
     view->time = times->first;
   }
-  auto effects = options.effects.effects();
+  auto effects = options.effects.effects(effectsOf(view->layout));
   if (!effects) {
     return std::unexpected(effects.error());
   }
@@ -272,6 +273,7 @@ Result<void> runRender(const RenderCommandOptions& options) {
     }
     std::fputs(jsonText(json).c_str(), stdout);
   } else {
+    printLines("layout", session.layoutNotes());
     printRemarks(session.scene(), session.scene().dataset());
   }
   if (taken < shots->size()) {

@@ -10,6 +10,7 @@
 #include "scenegraph/layer_list.h"
 #include "scenegraph/near_names.h"
 #include "scenegraph/osg_box.h"
+#include "scenegraph/passes/view_effects.h"
 
 namespace stillframe::cli {
 
@@ -23,6 +24,7 @@ Result<std::unique_ptr<SceneSession>> SceneSession::make(const ViewOptions& opti
   session->executor_ = scenegraph::makeSynchronousExecutor();
   session->scene_ =
       std::make_unique<scenegraph::Scene>(session->recording_->dataset(), nodes::layerTypes(), *session->executor_);
+  session->takeLayout();
   for (const auto step :
        {&SceneSession::chooseTime, &SceneSession::addLayers, &SceneSession::chooseFrame, &SceneSession::placeCamera}) {
     if (const auto done = ((*session).*step)(); !done) {
@@ -50,6 +52,34 @@ Result<void> SceneSession::chooseTime() {
   return {};
 }
 
+/// Options go before the layout; a frame of another recording is no frame of this one.
+void SceneSession::takeLayout() {
+  if (!options_.layout) {
+    return;
+  }
+  const scenegraph::ViewLayout& layout = *options_.layout;
+  const auto known = [this](const std::optional<std::string>& frame, const char* what) -> std::optional<std::string> {
+    if (!frame || recording_->dataset()->transforms()->findFrame(*frame)) {
+      return frame;
+    }
+    layout_notes_.push_back(std::string(what) + " " +
+                            scenegraph::noSuch("frame", *frame, recording_->dataset()->transforms()->frames()));
+    return std::nullopt;
+  };
+  scenegraph::ViewEffects effects;
+  for (const scenegraph::SettingError& error : effects.fromTexts(layout.effects)) {
+    layout_notes_.push_back("effects: " + error.message);
+  }
+  if (!options_.fixed_frame) {
+    options_.fixed_frame = known(layout.fixed_frame, "fixed frame:");
+  }
+  if (!options_.is_camera_named) {
+    options_.camera = layout.viewpoint.camera.kind;
+    options_.follow_frame = known(layout.viewpoint.display_frame, "display frame:");
+    options_.follow = options_.follow_frame ? layout.viewpoint.follow.mode : scenegraph::FollowMode::Off;
+  }
+}
+
 Result<void> SceneSession::addLayers() {
   if (!options_.only_named_layers) {
     scene_->addDefaultLayers();
@@ -63,15 +93,32 @@ Result<void> SceneSession::addLayers() {
   return {};
 }
 
-Result<void> SceneSession::chooseFrame() {
-  scene_->setFixedFrame(options_.fixed_frame);
-  updateFully();
-  // Settings come after the first update: which choices a colour field has is known once there is data.
+/// After the first update: which choices a colour field has is known once there is data.
+Result<void> SceneSession::applyLayers() {
+  if (options_.layout) {
+    scenegraph::LayerList saved = options_.layout->layers;
+    std::erase_if(saved.layers, [this](const scenegraph::LayerState& layer) {
+      return options_.only_named_layers && scene_->findLayer(layer.id) == nullptr;
+    });
+    const scenegraph::AppliedLayers applied = scenegraph::applyLayerList(saved, *scene_);
+    for (const auto* const statuses : {&applied.absent, &applied.refused}) {
+      std::ranges::transform(*statuses, std::back_inserter(layout_notes_), &scenegraph::Status::message);
+    }
+  }
   for (const LayerArgument& named : options_.layers) {
     const auto applied = scenegraph::applyLayerSettings(named.settings, *scene_->findLayer(named.id));
     if (!applied) {
       return usageError(options_.recording.file + ": layer '" + named.id + "': " + applied.error().message);
     }
+  }
+  return {};
+}
+
+Result<void> SceneSession::chooseFrame() {
+  scene_->setFixedFrame(options_.fixed_frame);
+  updateFully();
+  if (const auto applied = applyLayers(); !applied) {
+    return applied;
   }
   // A frame may be known by the data in it alone, without any transform.
   std::vector<std::string> known = recording_->dataset()->transforms()->frames();
@@ -128,6 +175,14 @@ scenegraph::Follow::Pose SceneSession::followedPose() const {
 }
 
 Result<void> SceneSession::placeCamera() {
+  // A camera that nobody moved sees all there is, in the recording that it was saved for as it was saved.
+  if (options_.layout && !options_.is_camera_named &&
+      (options_.layout->is_camera_touched || options_.layout->dataset == recording_->dataset()->name())) {
+    rig_.setState(options_.layout->viewpoint.camera);
+    follow_.setState(options_.layout->viewpoint.follow);
+    follow_.track(followedPose(), rig_);
+    return {};
+  }
   if (options_.follow_frame) {
     const std::string& frame = *options_.follow_frame;
     const tf::TransformBuffer& transforms = *recording_->dataset()->transforms();

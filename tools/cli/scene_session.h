@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "scenegraph/camera/follow.h"
 #include "scenegraph/executor.h"
@@ -29,14 +31,18 @@ class SceneSession {
   /// instant, and has gone along with the followed frame since.
   /// `turn_rad` turns it about the vertical through what it looks at, counterclockwise from above.
   [[nodiscard]] scenegraph::CameraView camera(double turn_rad = 0.0) const;
+  /// What of the layout could not be applied to this recording, a line each.
+  [[nodiscard]] const std::vector<std::string>& layoutNotes() const noexcept { return layout_notes_; }
   /// What an exported file says of itself.
   [[nodiscard]] scenegraph::ExportInfo exportInfo() const;
 
  private:
   explicit SceneSession(ViewOptions options) : options_(std::move(options)) {}
+  void takeLayout();
   Result<void> chooseTime();
   Result<void> addLayers();
   Result<void> chooseFrame();
+  Result<void> applyLayers();
   Result<void> placeCamera();
   [[nodiscard]] scenegraph::Follow::Pose followedPose() const;
   void updateFully();
@@ -48,6 +54,7 @@ class SceneSession {
   tf::TimePoint time_;
   scenegraph::CameraRig rig_;
   scenegraph::Follow follow_;
+  std::vector<std::string> layout_notes_;
 };
 
 }  // namespace stillframe::cli

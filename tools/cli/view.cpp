@@ -12,6 +12,7 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/effect_arguments.h"
 #include "tools/cli/layer_argument.h"
+#include "tools/cli/layout_argument.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/time_argument.h"
 #include "tools/cli/view_options.h"
@@ -35,9 +36,10 @@ struct ViewCommandOptions {
   std::string fixed_frame;
   std::vector<std::string> layers;
   bool only_named_layers = false;
-  std::string camera = "orbit";
+  std::string camera;
   std::string follow;
   std::string points = "auto";
+  std::string layout;
   std::string screenshot;
   std::string theme;
   bool reports_stalls = false;
@@ -101,16 +103,26 @@ Result<void> runView(const ViewCommandOptions& options) {
     }
     inspector.files.emplace_back(file);
   }
+  if (!options.layout.empty()) {
+    auto layout = readLayoutFile(options.layout);
+    if (!layout) {
+      return std::unexpected(layout.error());
+    }
+    inspector.layout = std::move(*layout);
+    inspector.layout_file = options.layout;
+  }
   if (!isSet("DISPLAY") && !isSet("WAYLAND_DISPLAY") && !isSet("QT_QPA_PLATFORM")) {
     return failure(
         "view needs a display, and neither DISPLAY nor WAYLAND_DISPLAY is set; 'stillframe render FILE --out "
         "picture.png' needs none");
   }
-  const auto camera = parseCamera(options.camera);
-  if (!camera) {
-    return std::unexpected(camera.error());
+  if (!options.camera.empty()) {
+    const auto camera = parseCamera(options.camera);
+    if (!camera) {
+      return std::unexpected(camera.error());
+    }
+    inspector.camera = *camera;
   }
-  inspector.camera = *camera;
   if (!options.follow.empty()) {
     auto follow = parseFollow(options.follow);
     if (!follow) {
@@ -129,6 +141,11 @@ Result<void> runView(const ViewCommandOptions& options) {
     return std::unexpected(effects.error());
   }
   inspector.effects = std::move(*effects);
+  if (inspector.layout) {
+    for (scenegraph::ViewLayout* const view : scenegraph::viewsOf(*inspector.layout)) {
+      view->effects = options.effects.effects(effectsOf(*view))->toTexts();  // over what the layout says
+    }
+  }
   if (!options.theme.empty()) {
     inspector.theme = viewer::themeOf(options.theme);
   }
@@ -166,14 +183,16 @@ Command addViewCommand(CLI::App& app) {
   app.add_option("FILE", options->files, "Recordings: the parts of a split one; none: a window that waits for a drop");
   addTransformOptions(app, options->recording);
   addRobotOptions(app, options->recording);
-  app.add_option("--views", options->views, "Views side by side")
-      ->check(CLI::Range(1, kMostViews))
-      ->capture_default_str();
+  CLI::Option* const views = app.add_option("--views", options->views, "Views side by side")
+                                 ->check(CLI::Range(1, kMostViews))
+                                 ->capture_default_str();
   app.add_option("--time", options->time, "Nanoseconds, +SECONDS from the start, start, or end")->capture_default_str();
   app.add_option("--fixed-frame", options->fixed_frame, "Frame that stands still; default: map, world, odom, ...");
   app.add_option("--camera", options->camera, "orbit, xyorbit, topdown (from above, without perspective) or fly")
-      ->type_name("MODEL")
-      ->capture_default_str();
+      ->type_name("MODEL");
+  app.add_option("--layout", options->layout, "A saved layout (.xml): views, frames, cameras, effects and layers")
+      ->type_name("FILE")
+      ->excludes(views);
   app.add_option("--follow", options->follow, "FRAME[:position|heading|pose]: the camera goes along with this frame")
       ->type_name("FRAME[:MODE]");
   app.add_option("--points", options->points, kPointsHelp)->type_name("WHO")->capture_default_str();

@@ -41,7 +41,7 @@ Result<std::pair<std::string, scenegraph::FollowMode>> parseFollow(const std::st
   return std::pair(std::move(frame), mode);
 }
 
-ViewArguments::ViewArguments(CLI::App& command) {
+ViewArguments::ViewArguments(CLI::App& command) : command_(command), layout_(command) {
   addRecordingOptions(command, options_.recording);
   addRobotOptions(command, options_.recording);
   command.add_option("--time", time_, "Nanoseconds, +SECONDS from the start, start, or end")->capture_default_str();
@@ -114,6 +114,14 @@ Result<ViewOptions> ViewArguments::view() const {
       return std::unexpected(follow.error());
     }
     std::tie(view.follow_frame, view.follow) = std::move(*follow);
+  }
+  auto layout = layout_.view();
+  if (!layout) {
+    return std::unexpected(layout.error());
+  }
+  view.layout = std::move(*layout);
+  for (const char* const option : {"--camera", "--ortho-height", "--follow", "--eye", "--look-at", "--fov"}) {
+    view.is_camera_named = view.is_camera_named || command_.count(option) > 0;
   }
   const auto background = parseColor("--background", background_);
   if (!background) {

@@ -9,6 +9,7 @@
 #include "scenegraph/pipeline/view_pipeline.h"
 #include "tools/cli/cli_error.h"
 #include "tools/cli/layer_argument.h"
+#include "tools/cli/layout_argument.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/time_argument.h"
 #include "tools/cli/value_arguments.h"
@@ -26,6 +27,8 @@ struct ViewOptions {
   std::optional<std::string> fixed_frame;
   std::vector<LayerArgument> layers;
   bool only_named_layers = false;
+  std::optional<scenegraph::ViewLayout> layout;  ///< what all that is not said here is taken from
+  bool is_camera_named = false;                  ///< the camera is said here, not by the layout
   std::optional<glm::dvec3> eye;      ///< in the frame that the camera lives in: the fixed frame unless it follows
   std::optional<glm::dvec3> look_at;  ///< in the same
   double vertical_fov_deg = 50.0;
@@ -45,6 +48,8 @@ class ViewArguments {
   [[nodiscard]] Result<ViewOptions> view() const;
 
  private:
+  CLI::App& command_;
+  LayoutArguments layout_;
   ViewOptions options_;
   std::string time_ = "end";
   std::string fixed_frame_;

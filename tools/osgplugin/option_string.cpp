@@ -72,6 +72,10 @@ cli::Result<bool> apply(cli::ViewOptions& view, const std::string& key, const st
     view.recording.package_paths.push_back(withoutQuotes(value));
   } else if (key == "robot") {
     view.recording.robots.push_back(withoutQuotes(value));
+  } else if (key == "layout") {
+    auto layout = cli::readLayoutFile(withoutQuotes(value));
+    done = layout ? cli::Result<void>() : std::unexpected(layout.error());
+    view.layout = layout ? std::optional(*scenegraph::viewsOf(*layout).front()) : std::nullopt;
   } else if (key == "layers") {
     done = addLayers(view, value);
   } else if (key == "layer") {

@@ -17,6 +17,7 @@ struct PluginOptions {
 /// Words separated by spaces, each key=value, a value with spaces in double quotes:
 ///
 /// - `time=` as on the command line (default: end), `fixed_frame=`, `tf_time=auto|header|log`, `static_always`;
+/// - `layout=FILE`: frames and layers of the first view of a saved layout;
 /// - `layers=LAYER;LAYER`: just these, each TOPIC[:key=value,...];
 /// - `layer=LAYER`: that one with these settings, beside all others; may be repeated;
 /// - `height=PIXELS`: of the window, for points whose size is in metres.

@@ -12,6 +12,7 @@
 #include "viewer/layers/layer_panel.h"
 #include "viewer/view/camera_bar.h"
 #include "viewer/view/effect_panel.h"
+#include "viewer/view/view_grip.h"
 #include "viewer/widget/scene_widget.h"
 #include "viewer/window/icons.h"
 
@@ -31,6 +32,8 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   auto* bar_layout = new QHBoxLayout(bar);
   bar_layout->setContentsMargins(4, 2, 4, 2);
   bar_layout->setSpacing(2);
+  auto* grip = new ViewGrip(bar);
+  bar_layout->addWidget(grip);
   layers_button_ = addButton(*bar, QStringLiteral("layers"), transportIcon(TransportIcon::Layers), tr("Layers"));
   layers_button_->setCheckable(true);
   layers_button_->setChecked(true);
@@ -51,7 +54,10 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
                                 tr("Duplicate this view to the right"));
   auto* split_below = addButton(*bar, QStringLiteral("splitBelow"), transportIcon(TransportIcon::SplitBelow),
                                 tr("Duplicate this view below"));
+  auto* detach = addButton(*bar, QStringLiteral("detach"), transportIcon(TransportIcon::Detach),
+                           tr("Move this view into a window of its own"));
   auto* close = addButton(*bar, QStringLiteral("close"), transportIcon(TransportIcon::Close), tr("Close this view"));
+  arranging_ = {grip, split_right, split_below, detach, close};
   layout->addWidget(bar);
 
   splitter_->setChildrenCollapsible(true);
@@ -81,6 +87,8 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   connect(recenter, &QToolButton::clicked, view_, &SceneWidget::home);
   connect(split_right, &QToolButton::clicked, this, [this] { Q_EMIT splitRequested(Qt::Horizontal); });
   connect(split_below, &QToolButton::clicked, this, [this] { Q_EMIT splitRequested(Qt::Vertical); });
+  connect(detach, &QToolButton::clicked, this, &ViewPanel::detachRequested);
+  connect(grip, &ViewGrip::dragged, this, &ViewPanel::dragRequested);
   connect(close, &QToolButton::clicked, this, &ViewPanel::closeRequested);
   connect(picker_, &FramePicker::picked, this, &ViewPanel::pickFixedFrame);
   connect(layers_, &LayerPanel::changed, view_, [this] { view_->requestTick(); });
@@ -106,6 +114,12 @@ QToolButton* ViewPanel::addButton(QWidget& bar, const QString& name, const QIcon
   return button;
 }
 
+void ViewPanel::setArrangeable(bool arrangeable) {
+  for (QWidget* const widget : arranging_) {
+    widget->setVisible(arrangeable);
+  }
+}
+
 void ViewPanel::setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegraph::Executor& executor,
                            const LayerChoices& choices) {
   layers_->setScene(nullptr);
@@ -115,9 +129,15 @@ void ViewPanel::setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegr
   }
   choices_ = choices;
   is_choice_applied_.assign(choices_.layers.size(), false);
+  waiting_.clear();
+  is_refused_.clear();
+  absent_.clear();
   addWantedLayers();
   layers_->setScene(view_->scene());
   refreshFrames();
+  if (is_waiting_for_scene_ && view_->scene() != nullptr) {
+    restoreInto(*view_->scene());
+  }
 }
 
 void ViewPanel::addWantedLayers() {
@@ -146,13 +166,14 @@ void ViewPanel::addWantedLayers() {
 
 void ViewPanel::takeGrowth() {
   addWantedLayers();
+  applyWaitingLayers();
   layers_->refresh();
   refreshFrames();
   view_->requestTick();
 }
 
 void ViewPanel::homeUnlessTouched() {
-  if (!view_->isCameraTouched()) {
+  if (!view_->endRestoring() && !view_->isCameraTouched()) {
     view_->resetView();
   }
 }
@@ -208,54 +229,6 @@ void ViewPanel::setHiddenFrames(const FrameNames& hidden) {
     Q_EMIT refused(QString::fromStdString("tf: " + applied.error().message));
   }
   layers_->refresh();
-  view_->requestTick();
-}
-
-void ViewPanel::setEffects(const scenegraph::ViewEffects& effects) {
-  effects_->setEffects(effects);
-  view_->setEffects(effects);
-}
-
-ViewState ViewPanel::state() const {
-  ViewState state;
-  state.shows_layers = layers_button_->isChecked();
-  state.shows_effects = effects_button_->isChecked();
-  state.effects = view_->effects();
-  scenegraph::Scene* scene = view_->scene();
-  if (scene == nullptr) {
-    return state;
-  }
-  if (scene->isFixedFrameExplicit()) {
-    state.fixed_frame = scene->fixedFrame();
-  }
-  state.viewpoint = view_->camera().state();
-  state.is_camera_touched = view_->isCameraTouched();
-  state.saved_views = view_->savedViews();
-  state.has_smooth_moves = view_->hasSmoothMoves();
-  state.layers = scenegraph::layerList(*scene);
-  return state;
-}
-
-void ViewPanel::setState(const ViewState& state) {
-  layers_button_->setChecked(state.shows_layers);
-  effects_button_->setChecked(state.shows_effects);
-  setEffects(state.effects);
-  scenegraph::Scene* scene = view_->scene();
-  if (scene == nullptr) {
-    return;
-  }
-  scene->setFixedFrame(state.fixed_frame);
-  for (const scenegraph::Status& status : scenegraph::applyLayerList(state.layers, *scene)) {
-    Q_EMIT refused(QString::fromStdString(status.message));
-  }
-  view_->setSavedViews(state.saved_views);
-  view_->setSmoothMoves(state.has_smooth_moves);
-  view_->setViewpoint(state.viewpoint);
-  if (!state.is_camera_touched) {
-    view_->resetView();
-  }
-  layers_->refresh();
-  refreshFrames();
   view_->requestTick();
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "scenegraph/camera/view_camera.h"
 #include "scenegraph/layer_list.h"
+#include "scenegraph/layout/view_layout.h"
 #include "scenegraph/passes/view_effects.h"
 #include "scenegraph/scene.h"
 #include "viewer/layers/layer_choices.h"
@@ -24,19 +24,6 @@ class FrameMemory;
 class FramePicker;
 class LayerPanel;
 class SceneWidget;
-
-/// All that makes a view what it is, in plain values: what a copy of it takes over, and what is saved and restored.
-struct ViewState {
-  std::optional<std::string> fixed_frame;
-  scenegraph::ViewpointState viewpoint;
-  bool is_camera_touched = false;  ///< false: whatever there is to see is in sight
-  std::vector<scenegraph::SavedView> saved_views;
-  bool has_smooth_moves = true;
-  scenegraph::LayerList layers;
-  bool shows_layers = true;
-  scenegraph::ViewEffects effects;  ///< toTexts() and fromTexts() for layouts
-  bool shows_effects = false;
-};
 
 /// A view: SceneWidget, tool bar and layer panel. Each has a Scene of its own: fixed frame, layers, settings, camera.
 /// GUI thread.
@@ -54,7 +41,7 @@ class ViewPanel : public QWidget {
   void setFrameMemory(FrameMemory& memory) { memory_ = &memory; }
   /// The dataset has more topics, frames or messages.
   void takeGrowth();
-  /// Looks at all data again, unless the camera was moved by hand.
+  /// Everything is loaded: looks at all data again, unless the camera was moved by hand or restored.
   void homeUnlessTouched();
 
   /// Frames that the axes leave out.
@@ -63,9 +50,16 @@ class ViewPanel : public QWidget {
   void setHiddenFrames(const FrameNames& hidden);
 
   void setEffects(const scenegraph::ViewEffects& effects);
+  /// Whether there are a grip, and buttons to split, detach and close the view; not where the host arranges it. On at
+  /// first.
+  void setArrangeable(bool arrangeable);
 
-  [[nodiscard]] ViewState state() const;
-  void setState(const ViewState& state);
+  /// All that makes the view what it is: what a copy of it takes over, and what is saved.
+  [[nodiscard]] scenegraph::ViewLayout layout() const;
+  /// Takes that over. What needs topics or frames that are not there (yet) waits for them, and is saved again.
+  void restore(const scenegraph::ViewLayout& layout);
+  /// What of the restored layout was refused, or waits in vain so far, a line each.
+  [[nodiscard]] std::vector<std::string> notRestored() const;
 
   [[nodiscard]] SceneWidget& view() noexcept { return *view_; }
   [[nodiscard]] FramePicker& framePicker() noexcept { return *picker_; }
@@ -75,6 +69,10 @@ class ViewPanel : public QWidget {
 
  Q_SIGNALS:
   void splitRequested(Qt::Orientation orientation);
+  /// Into a window of its own.
+  void detachRequested();
+  /// The user drags the view by its grip; the button is down.
+  void dragRequested();
   void closeRequested();
   void refused(const QString& message);
 
@@ -83,6 +81,9 @@ class ViewPanel : public QWidget {
   void addWantedLayers();
   void refreshFrames();
   void pickFixedFrame(const std::optional<std::string>& frame);
+  void restoreInto(scenegraph::Scene& scene);
+  void applyWaitingLayers();
+  void takeApplied(scenegraph::AppliedLayers applied, scenegraph::Scene& scene);
 
   SceneWidget* view_ = nullptr;
   FramePicker* picker_ = nullptr;
@@ -92,9 +93,16 @@ class ViewPanel : public QWidget {
   QSplitter* splitter_ = nullptr;
   QToolButton* layers_button_ = nullptr;
   QToolButton* effects_button_ = nullptr;
+  std::vector<QWidget*> arranging_;  // grip and buttons
   FrameMemory* memory_ = nullptr;
   LayerChoices choices_;
   std::vector<bool> is_choice_applied_;
+  scenegraph::ViewLayout restored_;              // the one that came last, as it came
+  bool is_waiting_for_scene_ = false;            // all of restored_ does
+  std::vector<scenegraph::LayerState> waiting_;  // of its layers
+  FrameNames is_refused_;                        // ids of those that wait for settings only
+  std::vector<std::string> refused_lines_;
+  std::vector<std::string> absent_;  // those without a topic, a line each
 };
 
 }  // namespace stillframe::viewer

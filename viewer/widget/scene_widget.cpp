@@ -39,6 +39,7 @@ SceneWidget::SceneWidget(QWidget* parent)
       help_(new HelpOverlay(this)),
       picks_(new ViewPicks(this)) {
   clock_.start();
+  connect(this, &SceneWidget::cameraChanged, this, [this] { restored_.reset(); });
   setFormat(glFormat());
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
@@ -67,6 +68,7 @@ void SceneWidget::setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scene
     scene_->setBufferTexels(buffer_texels_);
   }
   is_camera_touched_ = false;
+  restored_.reset();
   wants_framing_ = true;
   has_framed_data_ = false;
   camera_frame_.clear();
@@ -89,6 +91,7 @@ void SceneWidget::setFixedFrame(const std::optional<std::string>& frame) {
     return;
   }
   scene_->setFixedFrame(frame);
+  restored_.reset();
   requestTick();
   update();
 }

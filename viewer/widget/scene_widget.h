@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenegraph/camera/view_camera.h"
@@ -62,8 +63,15 @@ class SceneWidget : public QOpenGLWidget {
   [[nodiscard]] scenegraph::CameraView shownView() const { return camera_.view(now()); }
   /// At once, exactly.
   void setViewpoint(const scenegraph::ViewpointState& state);
+  /// The same with a saved one. Until the camera is moved or endRestoring(), it counts in whatever fixed frame
+  /// automatic choice comes to while data arrives, and neither is carried over nor framed anew. `is_touched`: as saved.
+  void restoreViewpoint(const scenegraph::ViewpointState& state, bool is_touched);
+  /// All frames are known. Returns whether a viewpoint was being restored.
+  bool endRestoring() { return std::exchange(restored_, std::nullopt).has_value(); }
   /// Whether a gesture or setViewpoint() has moved the camera since home().
   [[nodiscard]] bool isCameraTouched() const noexcept { return is_camera_touched_; }
+  /// Whether the camera has not yet been where it belongs: there is nothing to see so far.
+  [[nodiscard]] bool wantsFraming() const noexcept { return wants_framing_; }
   void setCameraKind(scenegraph::CameraKind kind);
   void setFollow(scenegraph::FollowMode mode);
   /// The frame that the camera lives in and may follow; nullopt: the fixed frame.
@@ -193,6 +201,7 @@ class SceneWidget : public QOpenGLWidget {
   bool wants_framing_ = true;
   bool has_framed_data_ = false;
   bool is_camera_touched_ = false;
+  std::optional<scenegraph::ViewpointState> restored_;  // what restoreViewpoint() holds on to
   bool is_context_usable_ = false;
   std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
   std::uint64_t frames_drawn_ = 0;

@@ -40,7 +40,9 @@ bool SceneWidget::followTick() {
   if (fixed_frame != camera_frame_) {
     const auto new_from_old =
         scene_->dataset().transforms()->tryLookupTransform(fixed_frame, camera_frame_, scene_->frames().time());
-    if (!is_camera_touched_) {
+    if (restored_) {
+      camera_.setState(*restored_);
+    } else if (!is_camera_touched_) {
       wants_framing_ = true;
     } else if (new_from_old) {
       camera_.changeFixedFrame(*new_from_old, displayPose());
@@ -58,6 +60,16 @@ void SceneWidget::setViewpoint(const scenegraph::ViewpointState& state) {
     camera_.track(displayPose());
   }
   onCameraMoved();
+}
+
+void SceneWidget::restoreViewpoint(const scenegraph::ViewpointState& state, bool is_touched) {
+  if (scene_ != nullptr) {
+    scene_->update(time_);  // the followed frame is there where the restored fixed frame has it
+  }
+  setViewpoint(state);
+  is_camera_touched_ = is_touched;
+  has_framed_data_ = true;
+  restored_ = state;
 }
 
 void SceneWidget::setCameraKind(scenegraph::CameraKind kind) {
@@ -97,6 +109,7 @@ void SceneWidget::home() {
 
 void SceneWidget::resetView() {
   is_camera_touched_ = false;
+  restored_.reset();
   wants_framing_ = true;
   glides_home_ = false;
   if (scene_ != nullptr) {
@@ -179,6 +192,7 @@ void SceneWidget::walk() {
   if (keys_.isWalking()) {
     camera_.grasp(now()).walk(keys_.direction(), step_s);
     is_camera_touched_ = true;
+    restored_.reset();
     wants_framing_ = false;
   }
 }

@@ -71,6 +71,19 @@ void draw(QPainter& painter, const QPen& pen, TransportIcon icon) {
       painter.drawRect(7, 10, 34, 28);
       painter.drawLine(7, 24, 41, 24);
       return;
+    case TransportIcon::Detach:
+      outline();
+      painter.drawPolyline(QPolygonF({{22, 12}, {8, 12}, {8, 40}, {36, 40}, {36, 26}}));
+      painter.drawLine(20, 28, 40, 8);
+      painter.drawPolyline(QPolygonF({{28, 8}, {40, 8}, {40, 20}}));
+      return;
+    case TransportIcon::Grip:
+      for (const int x : {16, 26}) {
+        for (const int y : {9, 21, 33}) {
+          painter.drawEllipse(x, y, 6, 6);
+        }
+      }
+      return;
     case TransportIcon::Close:
       outline();
       painter.drawLine(13, 13, 35, 35);

@@ -15,6 +15,8 @@ enum class TransportIcon {
   Target,
   SplitRight,
   SplitBelow,
+  Detach,
+  Grip,
   Close,
   Layers,
   Effects

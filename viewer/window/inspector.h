@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "scenegraph/camera/follow.h"
-#include "scenegraph/pipeline/view_pipeline.h"
+#include "scenegraph/layout/window_layout.h"
 #include "scenegraph/passes/view_effects.h"
+#include "scenegraph/pipeline/view_pipeline.h"
 #include "scenegraph/status.h"
 #include "viewer/layers/layer_choices.h"
 #include "viewer/window/dataset_loader.h"
@@ -18,15 +19,17 @@ namespace stillframe::viewer {
 
 /// How an inspector starts.
 struct InspectorOptions {
-  std::vector<std::filesystem::path> files = {};  ///< opened at once; none: an empty window that waits for a drop
-  std::optional<std::string> time = {};           ///< integer ns, "+SECONDS", "start" or "end"; absent: start
-  std::optional<std::string> fixed_frame = {};    ///< absent: chosen automatically
-  scenegraph::CameraKind camera = scenegraph::CameraKind::Orbit;
-  std::optional<std::string> display_frame = {};  ///< absent: the fixed frame
+  std::vector<std::filesystem::path> files = {};      ///< opened at once; none: an empty window that waits for a drop
+  std::optional<std::string> time = {};               ///< integer ns, "+SECONDS", "start" or "end"; absent: start
+  std::optional<std::string> fixed_frame = {};        ///< absent: chosen automatically
+  std::optional<scenegraph::CameraKind> camera = {};  ///< absent: that of the layout, else orbit
+  std::optional<std::string> display_frame = {};      ///< absent: the fixed frame
   scenegraph::FollowMode follow = scenegraph::FollowMode::Off;
   LayerChoices layers = {};
   scenegraph::PointWay points = scenegraph::PointWay::Auto;  ///< who draws opaque points
-  scenegraph::ViewEffects effects = {};  ///< of every view at first
+  scenegraph::ViewEffects effects = {};                      ///< of views that no layout describes
+  std::optional<scenegraph::Layout> layout = {};             ///< the views; what else is said here goes before it
+  std::optional<std::filesystem::path> layout_file = {};     ///< where it came from and Save layout writes it to
   int views = 1;
   int width = 1280;  ///< of the window
   int height = 800;

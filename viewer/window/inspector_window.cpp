@@ -10,7 +10,6 @@
 #include <QMimeData>
 #include <QProgressBar>
 #include <QShortcut>
-#include <QSplitter>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
@@ -26,6 +25,7 @@
 #include "viewer/window/picture_dialog.h"
 #include "viewer/window/picture_saver.h"
 #include "viewer/window/theme.h"
+#include "viewer/window/view_window.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -60,9 +60,9 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   layout->setSpacing(0);
   messages_ = new MessageBar(central);
   layout->addWidget(messages_);
-  view_splitter_ = new QSplitter(Qt::Horizontal, central);
-  view_splitter_->setChildrenCollapsible(false);
-  layout->addWidget(view_splitter_, 1);
+  auto* area = new ViewArea(central);
+  layout->addWidget(area, 1);
+  views_ = new ViewSet(*area, frame_memory_, this);
   setCentralWidget(central);
 
   auto* time_tool_bar = new QToolBar(tr("Time"), this);  // a tool bar, so that it is as wide as the window
@@ -90,7 +90,7 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   statusBar()->addPermanentWidget(progress_);
 
   connect(time_bar_, &TimeBar::timeChanged, this, [this](tf::TimePoint time) {
-    for (ViewPanel* panel : views_) {
+    for (ViewPanel* panel : views()) {
       panel->view().setTime(time);
     }
     frame_tree_->setTime(time);
@@ -106,10 +106,18 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   connect(loader_, &DatasetLoader::failed, this, &InspectorWindow::onFailed);
 
   buildMenus();
-  buildShortcuts();
-  for (int i = 0; i < std::max(1, options_.views); ++i) {
-    addView();
+  qApp->installEventFilter(new KeyboardGuard(this));
+  buildShortcuts(*this);
+  connect(views_, &ViewSet::added, this, [this](ViewPanel* panel) { connectView(*panel); });
+  connect(views_, &ViewSet::windowAdded, this, [this](ViewWindow* window) { buildShortcuts(*window); });
+  if (options_.layout) {
+    restore(*options_.layout);
+  } else {
+    for (int i = 0; i < std::max(1, options_.views); ++i) {
+      addView();
+    }
   }
+  makeReachable(*this);
   if (options_.files.empty()) {
     statusBar()->showMessage(tr("Drop recordings here, or choose File > Open"));
   } else {
@@ -131,27 +139,15 @@ void InspectorWindow::connectFrames() {
   connect(frame_tree_, &FrameTree::hiddenFramesEdited, this,
           [this](const FrameTree::Names& hidden) { activeView().setHiddenFrames(hidden); });
   connect(frame_tree_, &FrameTree::timeRequested, time_bar_, &TimeBar::setTime);
-  connect(qApp, &QApplication::focusChanged, this, [this](QWidget*, QWidget* now) {
-    for (ViewPanel* panel : views_) {
-      if (now != nullptr && panel->isAncestorOf(now)) {
-        setActiveView(*panel);
-      }
-    }
+  connect(views_, &ViewSet::activeChanged, this, [this] {
+    frame_tree_->setHiddenFrames(activeView().hiddenFrames());
+    inspect_->setView(activeView().view());
   });
 }
 
-void InspectorWindow::setActiveView(ViewPanel& panel) {
-  active_view_ = &panel;
-  frame_tree_->setHiddenFrames(panel.hiddenFrames());
-  inspect_->setView(panel.view());
-}
-
 InspectorWindow::~InspectorWindow() {
-  delete loader_;  // joins the worker, which reads the recording
-  for (ViewPanel* panel : views_) {
-    panel->disconnect(this);
-    delete panel;  // before the executor, which their layers use
-  }
+  delete loader_;   // joins the worker, which reads the recording
+  views_->clear();  // before the executor, which their layers use
 }
 
 void InspectorWindow::buildMenus() {
@@ -169,27 +165,29 @@ void InspectorWindow::buildMenus() {
     }
   });
   auto* saver = new PictureSaver(*executor_, this);
-  addPictureActions(*file, *this, *saver, [this]() -> SceneWidget& { return active_view_->view(); });
+  addPictureActions(*file, *this, *saver, [this]() -> SceneWidget& { return activeView().view(); });
   connect(saver, &PictureSaver::failed, messages_, &MessageBar::warn);
+  buildLayoutMenu(*file);
   QAction* quit = file->addAction(tr("&Quit"));
   quit->setShortcut(QKeySequence::Quit);
   connect(quit, &QAction::triggered, this, &QWidget::close);
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
   connect(view->addAction(tr("Add view to the &right")), &QAction::triggered, this,
-          [this] { addView(views_.empty() ? nullptr : views_.back(), Qt::Horizontal); });
+          [this] { addView(&activeView(), Qt::Horizontal); });
   connect(view->addAction(tr("Add view &below")), &QAction::triggered, this,
-          [this] { addView(views_.empty() ? nullptr : views_.back(), Qt::Vertical); });
+          [this] { addView(&activeView(), Qt::Vertical); });
+  connect(view->addAction(tr("&Detach view into a window")), &QAction::triggered, this,
+          [this] { views_->detach(activeView()); });
   view->addSeparator();
   view->addAction(findChild<QDockWidget*>(QStringLiteral("framesDock"))->toggleViewAction());
   view->addAction(inspect_->toggleViewAction());
   addThemeMenu(*view);
 }
 
-void InspectorWindow::buildShortcuts() {
-  qApp->installEventFilter(new KeyboardGuard(this));
-  const auto bind = [this](const QKeySequence& keys, auto action) {
-    connect(new QShortcut(keys, this), &QShortcut::activated, time_bar_, action);
+void InspectorWindow::buildShortcuts(QWidget& window) {
+  const auto bind = [&](const QKeySequence& keys, auto action) {
+    connect(new QShortcut(keys, &window), &QShortcut::activated, time_bar_, action);
   };
   bind(Qt::Key_Space, [this] { time_bar_->togglePlaying(); });
   bind(Qt::Key_Left, [this] { time_bar_->step(-1); });
@@ -205,70 +203,35 @@ void InspectorWindow::openFiles(std::vector<std::filesystem::path> files) {
   loader_->open(std::move(files));
 }
 
-ViewPanel& InspectorWindow::addView(ViewPanel* like, Qt::Orientation orientation) {
-  auto* panel = new ViewPanel;
-  panel->setFrameMemory(frame_memory_);
-  views_.push_back(panel);
-  if (active_view_ == nullptr) {
-    active_view_ = panel;
-  }
-  inspect_->watch(panel->view());
-  connect(&panel->view(), &SceneWidget::sceneUpdated, this, [this, panel] {
-    if (panel == active_view_) {
-      frame_tree_->setHiddenFrames(panel->hiddenFrames());
+void InspectorWindow::connectView(ViewPanel& panel) {
+  connect(&panel.view(), &SceneWidget::sceneUpdated, this, [this, &panel] {
+    if (&panel == &activeView()) {
+      frame_tree_->setHiddenFrames(panel.hiddenFrames());
     }
   });
-  connect(panel, &ViewPanel::splitRequested, this, [this, panel](Qt::Orientation wanted) { addView(panel, wanted); });
-  connect(panel, &ViewPanel::closeRequested, this, [this, panel] { closeView(*panel); });
-  connect(panel, &ViewPanel::refused, messages_, &MessageBar::warn);
-  connect(&panel->view(), &SceneWidget::frameHovered, this,
+  connect(&panel, &ViewPanel::splitRequested, this,
+          [this, &panel](Qt::Orientation orientation) { addView(&panel, orientation); });
+  connect(&panel, &ViewPanel::refused, messages_, &MessageBar::warn);
+  connect(&panel.view(), &SceneWidget::frameHovered, this,
           [this](const QString& frame) { statusBar()->showMessage(frame); });
-
-  QSplitter* splitter = like == nullptr ? view_splitter_ : qobject_cast<QSplitter*>(like->parentWidget());
-  if (like != nullptr && splitter->orientation() != orientation) {
-    // `like` shares its place with the new view.
-    auto* inner = new QSplitter(orientation);
-    inner->setChildrenCollapsible(false);
-    const QList<int> sizes = splitter->sizes();
-    splitter->replaceWidget(splitter->indexOf(like), inner);
-    inner->addWidget(like);
-    splitter->setSizes(sizes);
-    splitter = inner;
-  }
-  splitter->insertWidget(like == nullptr ? splitter->count() : splitter->indexOf(like) + 1, panel);
-  splitter->setSizes(QList<int>(splitter->count(), 1000));
-  panel->setEffects(options_.effects);
-  fillView(*panel);
-  ViewState state = like == nullptr ? panel->state() : like->state();
-  state.shows_layers = views_.size() == 1 && options_.views <= 1;  // side by side, the picture needs the room
-  if (like != nullptr) {
-    like->show();
-  }
-  panel->setState(state);
-  makeReachable(*this);
-  return *panel;
+  inspect_->watch(panel.view());
+  fillView(panel);
+  makeReachable(panel);
 }
 
-void InspectorWindow::closeView(ViewPanel& panel) {
-  if (views_.size() == 1) {
-    return;  // the window keeps one
+ViewPanel& InspectorWindow::addView(ViewPanel* like, Qt::Orientation orientation) {
+  ViewPanel& panel = views_->add(like, orientation == Qt::Horizontal ? Side::Right : Side::Below);
+  scenegraph::ViewLayout layout = like == nullptr ? panel.layout() : like->layout();
+  if (like == nullptr) {
+    layout.dataset.clear();  // it looks at everything
+    layout.effects = options_.effects.toTexts();
   }
-  std::erase(views_, &panel);
-  if (active_view_ == &panel) {
-    setActiveView(*views_.front());
-  }
-  QWidget* place = panel.parentWidget();
-  panel.hide();
-  panel.setParent(nullptr);
-  panel.deleteLater();
-  // Splitters that hold nothing any more go too.
-  while (place != view_splitter_ && qobject_cast<QSplitter*>(place)->count() == 0) {
-    QWidget* outer = place->parentWidget();
-    place->setParent(nullptr);
-    place->deleteLater();
-    place = outer;
-  }
+  layout.shows_layers = views().size() == 1 && options_.views <= 1;  // side by side, the picture needs the room
+  panel.restore(layout);
+  return panel;
 }
+
+void InspectorWindow::closeView(ViewPanel& panel) { views_->close(panel); }
 
 void InspectorWindow::fillView(ViewPanel& panel) {
   if (dataset_ == nullptr) {
@@ -279,7 +242,9 @@ void InspectorWindow::fillView(ViewPanel& panel) {
     panel.view().setFixedFrame(options_.fixed_frame);
   }
   panel.view().setTime(time_bar_->time());
-  panel.view().setCameraKind(options_.camera);
+  if (options_.camera) {
+    panel.view().setCameraKind(*options_.camera);
+  }
   panel.view().setPointWay(options_.points);
   if (options_.display_frame) {
     panel.view().setDisplayFrame(options_.display_frame);
@@ -298,7 +263,7 @@ void InspectorWindow::onOpened(const std::shared_ptr<scenegraph::Dataset>& datas
   time_bar_->setDataset(dataset);
   is_time_untouched_ = true;
   takeRange();
-  for (ViewPanel* panel : views_) {
+  for (ViewPanel* panel : views()) {
     fillView(*panel);
   }
   frame_tree_->setDataset(dataset);
@@ -325,7 +290,7 @@ void InspectorWindow::takeRange() {
 void InspectorWindow::onProgress(double fraction) {
   progress_->setValue(static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kProgressSteps));
   takeRange();
-  for (ViewPanel* panel : views_) {
+  for (ViewPanel* panel : views()) {
     panel->takeGrowth();
   }
   frame_tree_->refreshLater();
@@ -336,10 +301,11 @@ void InspectorWindow::onLoaded() {
   progress_->hide();
   statusBar()->clearMessage();
   onProgress(1.0);
-  for (ViewPanel* panel : views_) {
+  for (ViewPanel* panel : views()) {
     panel->homeUnlessTouched();
   }
   frame_tree_->refreshNow();
+  tellNotRestored();
   Q_EMIT loaded();
   takeScreenshotWhenComplete();
 }
@@ -359,7 +325,7 @@ void InspectorWindow::onFailed(const scenegraph::Status& status) {
 }
 
 bool InspectorWindow::isComplete() const {
-  return dataset_ != nullptr && !is_loading_ && std::ranges::all_of(views_, [](ViewPanel* panel) {
+  return dataset_ != nullptr && !is_loading_ && std::ranges::all_of(views(), [](ViewPanel* panel) {
            return panel->view().framesDrawn() > 0 && panel->view().scene() != nullptr &&
                   !panel->view().scene()->isPending();
          });
@@ -369,7 +335,7 @@ void InspectorWindow::takeScreenshotWhenComplete() {
   if (!options_.screenshot) {
     return;
   }
-  for (ViewPanel* panel : views_) {
+  for (ViewPanel* panel : views()) {
     panel->view().applyTick();
     connect(&panel->view(), &QOpenGLWidget::frameSwapped, this, &InspectorWindow::takeScreenshotWhenComplete,
             static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::UniqueConnection));
@@ -387,6 +353,13 @@ void InspectorWindow::takeScreenshotWhenComplete() {
 void InspectorWindow::failUnattended(const QString& message) {
   qCritical().noquote() << message;
   QCoreApplication::exit(1);
+}
+
+void InspectorWindow::closeEvent(QCloseEvent* event) {
+  for (ViewWindow* const window : views_->windows()) {
+    window->hide();  // else the program would go on for them
+  }
+  QMainWindow::closeEvent(event);
 }
 
 void InspectorWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -11,9 +11,10 @@
 #include "viewer/view/view_panel.h"
 #include "viewer/window/dataset_loader.h"
 #include "viewer/window/inspector.h"
+#include "viewer/window/view_set.h"
 
+class QMenu;
 class QProgressBar;
-class QSplitter;
 
 namespace stillframe::viewer {
 
@@ -39,9 +40,18 @@ class InspectorWindow : public QMainWindow {
   ViewPanel& addView(ViewPanel* like = nullptr, Qt::Orientation orientation = Qt::Horizontal);
   void closeView(ViewPanel& panel);
 
-  [[nodiscard]] const std::vector<ViewPanel*>& views() const noexcept { return views_; }
+  /// All views with their windows, places and states.
+  [[nodiscard]] scenegraph::Layout layout() const;
+  /// Replaces the views by those of `layout`, over the same recording; tells what it could not restore.
+  void restore(const scenegraph::Layout& layout);
+  /// The same with files. A layout that cannot be read changes nothing; both tell why in the message bar.
+  bool openLayout(const std::filesystem::path& file);
+  bool saveLayout(const std::filesystem::path& file);
+
+  [[nodiscard]] const std::vector<ViewPanel*>& views() const noexcept { return views_->views(); }
+  [[nodiscard]] ViewSet& viewSet() noexcept { return *views_; }
   /// The view that had the focus last: what the frames panel is about.
-  [[nodiscard]] ViewPanel& activeView() noexcept { return *active_view_; }
+  [[nodiscard]] ViewPanel& activeView() noexcept { return views_->active(); }
   [[nodiscard]] TimeBar& timeBar() noexcept { return *time_bar_; }
   [[nodiscard]] FrameTree& frameTree() noexcept { return *frame_tree_; }
   [[nodiscard]] InspectDock& inspect() noexcept { return *inspect_; }
@@ -58,18 +68,21 @@ class InspectorWindow : public QMainWindow {
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
 
  private:
   void buildMenus();
-  void buildShortcuts();
+  void buildLayoutMenu(QMenu& file);
+  void buildShortcuts(QWidget& window);
   void onOpened(const std::shared_ptr<scenegraph::Dataset>& dataset);
   void onProgress(double fraction);
   void onLoaded();
   void onFailed(const scenegraph::Status& status);
   void takeRange();
   void fillView(ViewPanel& panel);
+  void connectView(ViewPanel& panel);
   void connectFrames();
-  void setActiveView(ViewPanel& panel);
+  void tellNotRestored();
   void takeScreenshotWhenComplete();
   /// Ends the program with exit code 1: nobody is there to read a message bar.
   void failUnattended(const QString& message);
@@ -81,11 +94,9 @@ class InspectorWindow : public QMainWindow {
   bool is_loading_ = false;
   bool is_time_untouched_ = true;
   FrameMemory frame_memory_;  // before the views, which use it
-  std::vector<ViewPanel*> views_;
-  ViewPanel* active_view_ = nullptr;  // one of views_
 
   MessageBar* messages_ = nullptr;
-  QSplitter* view_splitter_ = nullptr;
+  ViewSet* views_ = nullptr;
   TimeBar* time_bar_ = nullptr;
   FrameTree* frame_tree_ = nullptr;
   InspectDock* inspect_ = nullptr;

@@ -1,0 +1,111 @@
+#include "scenegraph/layout/read_values.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace stillframe::scenegraph {
+namespace {
+
+constexpr std::size_t kLongestQuote = 80;
+
+std::expected<SettingValue, Status> readValue(const XmlElement& element, const SettingSpec& spec,
+                                              const std::string& text) {
+  const auto value = parseSetting(spec, text.substr(0, kLongestQuote));
+  return value ? std::expected<SettingValue, Status>(*value)
+               : std::unexpected(badElement(element, value.error().message));
+}
+
+}  // namespace
+
+Status badElement(const XmlElement& element, const std::string& why) {
+  std::string quoted = "<" + element.name;
+  for (const char* const key : {"id", "name", "key"}) {
+    if (const std::string* const value = element.attribute(key)) {
+      quoted += " " + std::string(key) + "=\"" + value->substr(0, kLongestQuote) + "\"";
+    }
+  }
+  return {StatusLevel::Error, "BadLayout", quoted + ">: " + why};
+}
+
+std::expected<void, Status> checkVersion(const XmlElement& element, int version) {
+  const std::string* const text = element.attribute("version");
+  const std::string reads = "; this program reads version " + std::to_string(version);
+  if (text == nullptr) {
+    return std::unexpected(
+        Status{StatusLevel::Error, "WrongVersion", "<" + element.name + "> tells no version" + reads});
+  }
+  if (*text != std::to_string(version)) {
+    return std::unexpected(
+        Status{StatusLevel::Error, "WrongVersion",
+               "<" + element.name + "> has version '" + text->substr(0, kLongestQuote) + "'" + reads});
+  }
+  return {};
+}
+
+std::expected<bool, Status> readBool(const XmlElement& element, const std::string& key, bool absent) {
+  const std::string* const text = element.attribute(key);
+  if (text == nullptr) {
+    return absent;
+  }
+  const auto value = readValue(element, {.key = key, .label = {}, .help = {}, .kind = SettingKind::Bool}, *text);
+  return value ? std::expected<bool, Status>(std::get<bool>(*value)) : std::unexpected(value.error());
+}
+
+std::expected<int, Status> readInt(const XmlElement& element, const std::string& key, int absent, int minimum,
+                                   int maximum) {
+  const std::string* const text = element.attribute(key);
+  if (text == nullptr) {
+    return absent;
+  }
+  const auto value = readValue(element,
+                               {.key = key,
+                                .label = {},
+                                .help = {},
+                                .kind = SettingKind::Int,
+                                .minimum = static_cast<double>(minimum),
+                                .maximum = static_cast<double>(maximum)},
+                               *text);
+  return value ? std::expected<int, Status>(static_cast<int>(std::get<std::int64_t>(*value)))
+               : std::unexpected(value.error());
+}
+
+std::string readText(const XmlElement& element, const std::string& key) {
+  const std::string* const text = element.attribute(key);
+  return text == nullptr ? std::string() : *text;
+}
+
+void keepUnknown(XmlElement& fresh, const XmlElement& source, std::span<const KnownElement> known) {
+  const auto schema = std::ranges::find(known, fresh.name, &KnownElement::name);
+  if (schema == known.end()) {
+    return;
+  }
+  std::set<std::string, std::less<>> there(schema->attributes.begin(), schema->attributes.end());
+  for (const auto& [key, value] : fresh.attributes) {
+    there.insert(key);
+  }
+  for (const auto& [key, value] : source.attributes) {
+    if (!there.contains(key)) {
+      fresh.set(key, value);
+    }
+  }
+  const auto nameOf = [&](const XmlElement& element) {
+    const auto kind = std::ranges::find(known, element.name, &KnownElement::name);
+    const bool has_key = kind != known.end() && !kind->key.empty();
+    return std::pair(element.name, has_key ? readText(element, std::string(kind->key)) : std::string());
+  };
+  std::map<std::pair<std::string, std::string>, std::size_t> index;
+  for (std::size_t i = 0; i < fresh.children.size(); ++i) {
+    index.emplace(nameOf(fresh.children[i]), i);
+  }
+  for (const XmlElement& child : source.children) {
+    if (std::ranges::find(schema->children, child.name) == schema->children.end()) {
+      fresh.children.push_back(child);
+    } else if (const auto same = index.find(nameOf(child)); same != index.end()) {
+      keepUnknown(fresh.children[same->second], child, known);
+    }
+  }
+}
+
+}  // namespace stillframe::scenegraph

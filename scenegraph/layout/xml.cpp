@@ -1,0 +1,222 @@
+#include "scenegraph/layout/xml.h"
+
+#include <expat.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+
+namespace stillframe::scenegraph {
+namespace {
+
+bool isSpace(std::string_view text) { return text.find_first_not_of(" \t\r\n") == std::string_view::npos; }
+
+std::unexpected<Status> refused(const char* code, std::string message) {
+  return std::unexpected(Status{StatusLevel::Error, code, std::move(message)});
+}
+
+/// Collects elements as Expat tells of them; the recursion is ours, and bounded.
+class Reader {
+ public:
+  explicit Reader(const XmlLimits& limits) : limits_(limits), parser_(XML_ParserCreate(nullptr), &XML_ParserFree) {
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(
+        parser_.get(),
+        [](void* self, const XML_Char* name, const XML_Char** attributes) {
+          static_cast<Reader*>(self)->begin(name, attributes);
+        },
+        [](void* self, const XML_Char*) { static_cast<Reader*>(self)->end(); });
+    XML_SetCharacterDataHandler(parser_.get(), [](void* self, const XML_Char* text, int length) {
+      static_cast<Reader*>(self)->addText({text, static_cast<std::size_t>(length)});
+    });
+    XML_SetStartDoctypeDeclHandler(parser_.get(), [](void* self, const XML_Char*, const XML_Char* system_id,
+                                                     const XML_Char* public_id, int is_internal) {
+      if (is_internal != 0 || system_id != nullptr || public_id != nullptr) {
+        static_cast<Reader*>(self)->stop("it declares entities of its own");
+      }  // a bare <!DOCTYPE name>, as Qt writes it, declares nothing
+    });
+  }
+
+  std::expected<XmlElement, Status> read(std::string_view text) {
+    constexpr std::size_t kPiece = std::size_t{1} << 20;  // Expat counts in int
+    for (std::size_t begin = 0; begin == 0 || begin < text.size(); begin += kPiece) {
+      const std::string_view piece = text.substr(begin, kPiece);
+      const bool is_last = begin + kPiece >= text.size();
+      if (XML_Parse(parser_.get(), piece.data(), static_cast<int>(piece.size()), is_last ? 1 : 0) != XML_STATUS_OK) {
+        const std::string line = std::to_string(XML_GetCurrentLineNumber(parser_.get()));
+        const std::string reason = why_.empty() ? XML_ErrorString(XML_GetErrorCode(parser_.get())) : why_;
+        return refused("MalformedLayout", "line " + line + ": " + reason);
+      }
+    }
+    return std::move(root_);
+  }
+
+ private:
+  void stop(std::string why) {
+    why_ = std::move(why);
+    XML_StopParser(parser_.get(), XML_FALSE);
+  }
+
+  void begin(const XML_Char* name, const XML_Char** attributes) {
+    if (open_.size() >= limits_.depth) {
+      stop("more than " + std::to_string(limits_.depth) + " elements within each other");
+      return;
+    }
+    if (++elements_ > limits_.elements) {
+      stop("more than " + std::to_string(limits_.elements) + " elements");
+      return;
+    }
+    XmlElement element{name};
+    for (; *attributes != nullptr; attributes += 2) {
+      element.set(attributes[0], attributes[1]);
+    }
+    open_.push_back(std::move(element));
+  }
+
+  void end() {
+    if (open_.empty()) {
+      return;
+    }
+    XmlElement element = std::move(open_.back());
+    open_.pop_back();
+    const bool is_laid_out = std::ranges::any_of(element.children, [](const auto& of) { return !of.name.empty(); });
+    if (is_laid_out) {
+      std::erase_if(element.children, [](const auto& of) { return of.name.empty() && isSpace(of.text); });
+    }
+    (open_.empty() ? root_ : open_.back().children.emplace_back()) = std::move(element);
+  }
+
+  void addText(std::string_view text) {
+    if (open_.empty()) {
+      return;
+    }
+    auto& children = open_.back().children;
+    if (children.empty() || !children.back().name.empty()) {
+      children.push_back({.name = {}, .text = std::string(text)});
+    } else {
+      children.back().text += text;
+    }
+  }
+
+  XmlLimits limits_;
+  std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;
+  XmlElement root_;
+  std::vector<XmlElement> open_;
+  std::size_t elements_ = 0;
+  std::string why_;  // of a stop of ours
+};
+
+/// Length of the UTF-8 character at the head of `text` when XML can hold it, else 0.
+std::size_t characterLength(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const unsigned first = byte(0);
+  if (first < 0x80) {
+    return first >= 0x20 || first == '\t' || first == '\n' || first == '\r' ? 1 : 0;
+  }
+  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  std::uint32_t code = first & (0xFFU >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) {
+      return 0;
+    }
+    code = code << 6U | (byte(i) & 0x3FU);
+  }
+  constexpr std::uint32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool is_held = first >= 0xC0 && first < 0xF8 && code >= kSmallest[length] && code <= 0x10FFFF &&
+                       (code < 0xD800 || code > 0xDFFF) && code != 0xFFFE && code != 0xFFFF;
+  return is_held ? length : 0;
+}
+
+void writeEscaped(std::string_view text, bool is_attribute, std::string& out) {
+  while (!text.empty()) {
+    const std::size_t length = characterLength(text);
+    switch (length == 1 ? text.front() : 'x') {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += is_attribute ? "&quot;" : "\"";
+        break;
+      case '\r':
+        out += "&#13;";
+        break;
+      case '\t':
+        out += is_attribute ? "&#9;" : "\t";
+        break;
+      case '\n':
+        out += is_attribute ? "&#10;" : "\n";
+        break;
+      default:
+        out += length == 0 ? std::string_view("\xEF\xBF\xBD") : text.substr(0, length);
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+}
+
+/// `indent` is negative where space would be text.
+void writeElement(const XmlElement& element, int indent, std::string& out) {  // as deep as the limit of parseXml()
+  if (element.name.empty()) {
+    writeEscaped(element.text, false, out);
+    return;
+  }
+  const std::string_view space = "\n                                                                ";
+  const auto newLine = [&](int depth) {
+    if (depth >= 0) {
+      out += space.substr(0, std::min<std::size_t>(space.size(), 1 + 2 * static_cast<std::size_t>(depth)));
+    }
+  };
+  out += "<" + element.name;
+  for (const auto& [key, value] : element.attributes) {
+    out += " " + key + "=\"";
+    writeEscaped(value, true, out);
+    out += "\"";
+  }
+  if (element.children.empty()) {
+    out += "/>";
+    return;
+  }
+  out += ">";
+  const bool has_text = std::ranges::any_of(element.children, [](const auto& of) { return of.name.empty(); });
+  const int inner = indent < 0 || has_text ? -1 : indent + 1;
+  for (const XmlElement& child : element.children) {
+    newLine(inner);
+    writeElement(child, inner, out);
+  }
+  newLine(inner < 0 ? -1 : indent);
+  out += "</" + element.name + ">";
+}
+
+}  // namespace
+
+const std::string* XmlElement::attribute(std::string_view key) const {
+  const auto found = std::ranges::find_if(attributes, [&](const auto& of) { return of.first == key; });
+  return found == attributes.end() ? nullptr : &found->second;
+}
+
+const XmlElement* XmlElement::child(std::string_view child_name) const {
+  const auto found = std::ranges::find(children, child_name, &XmlElement::name);
+  return found == children.end() ? nullptr : &*found;
+}
+
+std::expected<XmlElement, Status> parseXml(std::string_view text, const XmlLimits& limits) {
+  if (text.size() > limits.bytes) {
+    return refused("LayoutTooLarge", "it has " + std::to_string(text.size()) + " bytes; a layout has at most " +
+                                         std::to_string(limits.bytes));
+  }
+  return Reader(limits).read(text);
+}
+
+std::string writeXml(const XmlElement& root) {
+  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  writeElement(root, 0, out);
+  out += "\n";
+  return out;
+}
+
+}  // namespace stillframe::scenegraph

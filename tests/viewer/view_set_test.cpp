@@ -1,0 +1,298 @@
+// Views side by side, in windows of their own, dragged, saved and restored.
+#include "viewer/window/view_set.h"
+
+#include <gtest/gtest.h>
+
+#include <QDragMoveEvent>
+#include <QDropEvent>
+#include <QMimeData>
+#include <QRubberBand>
+#include <QSplitter>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QToolButton>
+#include <fstream>
+#include <sstream>
+
+#include "tests/viewer/viewer_support.h"
+#include "viewer/time/time_bar.h"
+#include "viewer/widget/scene_widget.h"
+#include "viewer/window/inspector_window.h"
+#include "viewer/window/message_bar.h"
+#include "viewer/window/view_window.h"
+
+namespace stillframe::viewer {
+namespace {
+
+using namespace tf::literals;
+using test::settle;
+using test::waitFor;
+using tf::TimePoint;
+
+class ViewSetTest : public testing::Test {
+ protected:
+  void SetUp() override { open({.files = {"robot.mcap"}, .time = "+3"}); }
+  void open(InspectorOptions options) {
+    window_ = std::make_unique<InspectorWindow>(test::fakeOpener(), std::move(options));
+    window_->show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    complete();
+  }
+  void complete() {
+    ASSERT_TRUE(waitFor([&] { return window_->isComplete(); }));
+    settle();
+  }
+  void TearDown() override {
+    for (ViewPanel* const panel : views()) {
+      EXPECT_EQ(panel->view().glMessages(), 0U);
+    }
+  }
+  ViewSet& set() { return window_->viewSet(); }
+  const std::vector<ViewPanel*>& views() { return window_->views(); }
+  static void click(ViewPanel& panel, const char* button) {
+    QTest::mouseClick(panel.findChild<QToolButton*>(QString::fromLatin1(button)), Qt::LeftButton);
+    settle();
+  }
+  static ViewArea& areaOf(ViewPanel& panel) {
+    QWidget* widget = panel.parentWidget();
+    while (qobject_cast<ViewArea*>(widget) == nullptr) {
+      widget = widget->parentWidget();
+    }
+    return *qobject_cast<ViewArea*>(widget);
+  }
+  /// Lets go of `dragged` at a place of `target`, 0..1 from its left upper corner. Returns whether it was taken.
+  static bool drop(const QByteArray& dragged, ViewPanel& target, double x, double y) {
+    ViewArea& area = areaOf(target);
+    QMimeData data;
+    data.setData(QString::fromLatin1(ViewArea::kMimeType), dragged);
+    const QPointF at =
+        target.mapTo(&area, QPoint(static_cast<int>(x * target.width()), static_cast<int>(y * target.height())));
+    QDragMoveEvent move(at.toPoint(), Qt::MoveAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&area, &move);
+    EXPECT_EQ(area.findChild<QRubberBand*>()->isVisible(), move.isAccepted());
+    QDropEvent event(at, Qt::MoveAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&area, &event);
+    EXPECT_FALSE(area.findChild<QRubberBand*>()->isVisible());
+    settle();
+    return event.isAccepted();
+  }
+  bool isDrawn(ViewPanel& panel) {
+    const auto before = panel.view().framesDrawn();
+    panel.view().update();
+    return waitFor([&] { return panel.view().framesDrawn() > before; }) &&
+           test::drawnPixels(panel.view().grabFramebuffer()) > 300;
+  }
+
+  std::unique_ptr<InspectorWindow> window_;
+};
+
+TEST_F(ViewSetTest, ButtonsSplitAViewBothWays) {
+  click(*views()[0], "splitRight");
+  click(*views()[1], "splitBelow");
+  ASSERT_EQ(views().size(), 3U);
+  const auto place = window_->layout().windows.at(0).place;
+  ASSERT_EQ(place.children.size(), 2U);
+  EXPECT_FALSE(place.is_vertical);
+  EXPECT_TRUE(place.children[0].view);
+  EXPECT_TRUE(place.children[1].is_vertical);
+  EXPECT_EQ(place.children[1].children.size(), 2U);
+  for (ViewPanel* const panel : views()) {
+    EXPECT_TRUE(isDrawn(*panel));
+  }
+}
+
+TEST_F(ViewSetTest, ClosingLeavesNoEmptySplitter) {
+  click(*views()[0], "splitRight");
+  click(*views()[1], "splitBelow");
+  click(*views()[2], "close");
+  click(*views()[0], "close");
+  ASSERT_EQ(views().size(), 1U);
+  EXPECT_TRUE(window_->layout().windows.at(0).place.view);
+  EXPECT_EQ(areaOf(*views()[0]).findChildren<QSplitter*>(QString(), Qt::FindDirectChildrenOnly).size(), 1);
+  EXPECT_TRUE(isDrawn(*views()[0]));
+  click(*views()[0], "close");
+  EXPECT_EQ(views().size(), 1U) << "the last view stays";
+}
+
+TEST_F(ViewSetTest, DetachedViewGoesOnInAWindowOfItsOwn) {
+  click(*views()[0], "detach");
+  EXPECT_TRUE(set().windows().empty()) << "the only view stays in the window";
+  click(*views()[0], "splitRight");
+  ViewPanel& panel = *views()[1];
+  panel.view().setFixedFrame("odom");
+  auto state = panel.view().camera().state();
+  state.camera.orbit.radius_m = 4.5;
+  panel.view().setViewpoint(state);
+  click(panel, "detach");
+  ASSERT_EQ(set().windows().size(), 1U);
+  EXPECT_EQ(panel.window(), set().windows()[0]);
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(panel.window()));
+  EXPECT_DOUBLE_EQ(panel.view().camera().sight().radius_m, 4.5);
+  EXPECT_EQ(panel.view().scene()->fixedFrame(), "odom");
+  EXPECT_TRUE(isDrawn(panel)) << "in another context";
+  window_->timeBar().setTime(TimePoint{5_s});
+  settle();
+  EXPECT_EQ(panel.view().scene()->time(), TimePoint{5_s});
+  panel.window()->activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(panel.window()));
+  panel.view().setFocus();
+  QTest::keyClick(&panel.view(), Qt::Key_Right);
+  EXPECT_EQ(window_->timeBar().time(), TimePoint{6_s}) << "keys work there too";
+}
+
+TEST_F(ViewSetTest, ClosingAWindowClosesItsViews) {
+  click(*views()[0], "splitRight");
+  click(*views()[1], "detach");
+  set().windows()[0]->close();
+  settle();
+  EXPECT_EQ(views().size(), 1U);
+  EXPECT_TRUE(set().windows().empty());
+}
+
+TEST_F(ViewSetTest, ViewIsDraggedToEachSideOfAnother) {
+  click(*views()[0], "splitRight");
+  ViewPanel& fixed = *views()[0];
+  ViewPanel& dragged = *views()[1];
+  const struct {
+    double x;
+    double y;
+    bool is_vertical;
+    std::size_t index;
+  } cases[] = {{0.1, 0.5, false, 0}, {0.9, 0.5, false, 1}, {0.5, 0.1, true, 0}, {0.5, 0.95, true, 1}};
+  for (const auto& [x, y, is_vertical, index] : cases) {
+    EXPECT_TRUE(drop(ViewArea::token(dragged), fixed, x, y));
+    EXPECT_EQ(window_->layout().windows.at(0).place.is_vertical, is_vertical);
+    EXPECT_EQ(areaOf(fixed).panels().at(index), &dragged);
+    EXPECT_TRUE(isDrawn(dragged));
+  }
+}
+
+TEST_F(ViewSetTest, ViewIsDraggedBetweenWindows) {
+  click(*views()[0], "splitRight");
+  click(*views()[1], "splitRight");
+  ViewPanel& away = *views()[2];
+  click(away, "detach");
+  ViewPanel& dragged = *views()[1];
+  EXPECT_TRUE(drop(ViewArea::token(dragged), away, 0.5, 0.9));
+  EXPECT_EQ(dragged.window(), away.window());
+  EXPECT_TRUE(isDrawn(dragged));
+  drop(ViewArea::token(*views()[0]), away, 0.5, 0.9);
+  EXPECT_EQ(views()[0]->window(), window_.get()) << "the main window keeps its last view";
+  EXPECT_TRUE(drop(ViewArea::token(dragged), *views()[0], 0.1, 0.5));
+  EXPECT_TRUE(drop(ViewArea::token(away), *views()[0], 0.1, 0.5));
+  EXPECT_TRUE(set().windows().empty()) << "the window goes with its last view";
+  EXPECT_TRUE(isDrawn(away));
+}
+
+TEST_F(ViewSetTest, DropsOfOthersAreRefused) {
+  click(*views()[0], "splitRight");
+  EXPECT_FALSE(drop("1:12345", *views()[0], 0.1, 0.5)) << "a view of another process";
+  EXPECT_FALSE(drop("", *views()[0], 0.1, 0.5));
+  const auto order = areaOf(*views()[0]).panels();
+  drop(QByteArray::number(QCoreApplication::applicationPid()) + ":12345", *views()[0], 0.1, 0.5);
+  drop(ViewArea::token(*views()[0]), *views()[0], 0.1, 0.5);
+  EXPECT_EQ(areaOf(*views()[0]).panels(), order) << "no such view; upon itself";
+}
+
+std::string textOf(const QString& file) {
+  std::ostringstream text;
+  text << std::ifstream(file.toStdString()).rdbuf();
+  return text.str();
+}
+
+class LayoutFileTest : public ViewSetTest {
+ protected:
+  void SetUp() override {
+    ViewSetTest::SetUp();
+    click(*views()[0], "splitRight");
+    click(*views()[1], "splitBelow");
+    click(*views()[2], "splitRight");
+    click(*views()[3], "detach");
+    views()[0]->view().setFixedFrame("odom");
+    auto state = views()[1]->view().camera().state();
+    state.camera.orbit.radius_m = 3.5;
+    views()[1]->view().setViewpoint(state);
+    scenegraph::ViewEffects effects;
+    effects.setOn("edl", true);
+    views()[2]->setEffects(effects);
+    views()[3]->view().scene()->findLayer("grid")->layer->setVisible(false);
+    settle();
+    ASSERT_TRUE(window_->saveLayout(file_.toStdString()));
+    for (ViewPanel* const panel : views()) {
+      panel->view().requestTick();
+    }
+    settle();
+    pictures_ = pictures();
+  }
+  std::vector<QImage> pictures() {
+    std::vector<QImage> all;
+    for (ViewPanel* const panel : views()) {
+      EXPECT_TRUE(isDrawn(*panel));
+      all.push_back(panel->view().grabFramebuffer());
+    }
+    return all;
+  }
+  void expectRestored() {
+    complete();
+    ASSERT_EQ(views().size(), 4U);
+    EXPECT_EQ(set().windows().size(), 1U);
+    EXPECT_EQ(pictures(), pictures_);
+    const QString again = folder_.filePath(QStringLiteral("again.xml"));
+    ASSERT_TRUE(window_->saveLayout(again.toStdString()));
+    EXPECT_EQ(textOf(again), textOf(file_));
+    EXPECT_EQ(window_->messageBar().text(), QString());
+  }
+
+  QTemporaryDir folder_;
+  QString file_ = folder_.filePath(QStringLiteral("layout.xml"));
+  std::vector<QImage> pictures_;
+};
+
+TEST_F(LayoutFileTest, NewWindowIsTheSavedOneToThePixelAndToTheByte) {
+  const auto layout = scenegraph::readLayout(file_.toStdString());
+  ASSERT_TRUE(layout);
+  open({.files = {"robot.mcap"}, .time = "+3", .layout = *layout});
+  expectRestored();
+}
+
+TEST_F(LayoutFileTest, OpenedLayoutReplacesTheViewsOfAWindow) {
+  open({.files = {"robot.mcap"}, .time = "+3", .views = 2});
+  ASSERT_TRUE(window_->openLayout(file_.toStdString()));
+  expectRestored();
+}
+
+TEST_F(LayoutFileTest, BrokenLayoutChangesNothing) {
+  const QString broken = folder_.filePath(QStringLiteral("broken.xml"));
+  std::ofstream(broken.toStdString()) << textOf(file_).substr(0, 2000);
+  EXPECT_FALSE(window_->openLayout(broken.toStdString()));
+  EXPECT_FALSE(window_->messageBar().text().isEmpty());
+  window_->messageBar().hide();
+  expectRestored();
+}
+
+TEST_F(LayoutFileTest, UnwritablePlaceIsToldAndTheWindowStays) {
+  EXPECT_FALSE(window_->saveLayout("/nonexistent/layout.xml"));
+  EXPECT_TRUE(window_->messageBar().text().contains(QStringLiteral("/nonexistent/layout.xml")));
+}
+
+TEST_F(LayoutFileTest, WhatTheRecordingDoesNotHaveIsTold) {
+  auto layout = scenegraph::readLayout(file_.toStdString());
+  ASSERT_TRUE(layout);
+  layout->windows[1].place.view->layers.layers.push_back({.id = "/radar", .title = {}, .settings = {}});
+  open({.files = {"robot.mcap"}, .time = "+3", .layout = *layout});
+  EXPECT_TRUE(window_->messageBar().text().contains(QStringLiteral("/radar")))
+      << window_->messageBar().text().toStdString();
+  EXPECT_TRUE(window_->messageBar().text().startsWith(QStringLiteral("view 4: ")));
+}
+
+TEST_F(LayoutFileTest, OptionsGoBeforeTheLayout) {
+  const auto layout = scenegraph::readLayout(file_.toStdString());
+  open({.files = {"robot.mcap"}, .fixed_frame = "base_link", .camera = scenegraph::CameraKind::Fly, .layout = *layout});
+  for (ViewPanel* const panel : views()) {
+    EXPECT_EQ(panel->view().scene()->fixedFrame(), "base_link");
+    EXPECT_EQ(panel->view().camera().rig().kind(), scenegraph::CameraKind::Fly);
+  }
+}
+
+}  // namespace
+}  // namespace stillframe::viewer

@@ -1,0 +1,118 @@
+// Layouts of the inspector: opened, saved, restored.
+#include <QFile>
+#include <QFileDialog>
+#include <QMenu>
+#include <QSaveFile>
+
+#include "viewer/window/inspector_window.h"
+#include "viewer/window/message_bar.h"
+
+namespace stillframe::viewer {
+namespace {
+
+constexpr std::size_t kMostLines = 8;  // of a message
+
+QString fileFilter() { return InspectorWindow::tr("Layouts (*.xml);;All files (*)"); }
+
+QString named(const std::filesystem::path& file) { return QString::fromStdString(file.string()); }
+
+}  // namespace
+
+void InspectorWindow::buildLayoutMenu(QMenu& file) {
+  file.addSeparator();
+  QAction* open = file.addAction(tr("Open &layout..."));
+  open->setShortcut(QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
+  connect(open, &QAction::triggered, this, [this] {
+    if (const QString name = QFileDialog::getOpenFileName(this, tr("Open a layout"), {}, fileFilter());
+        !name.isEmpty()) {
+      openLayout(name.toStdString());
+    }
+  });
+  const auto save_as = [this] {
+    const QString name = QFileDialog::getSaveFileName(
+        this, tr("Save the layout"), options_.layout_file ? named(*options_.layout_file) : QStringLiteral("layout.xml"),
+        fileFilter());
+    if (!name.isEmpty()) {
+      saveLayout(name.toStdString());
+    }
+  };
+  QAction* save = file.addAction(tr("&Save layout"));
+  save->setShortcut(QKeySequence::Save);
+  connect(save, &QAction::triggered, this, [this, save_as] {
+    if (options_.layout_file) {
+      saveLayout(std::filesystem::path(*options_.layout_file));
+    } else {
+      save_as();
+    }
+  });
+  QAction* other = file.addAction(tr("Save layout &as..."));
+  other->setShortcut(QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S));
+  connect(other, &QAction::triggered, this, save_as);
+  file.addSeparator();
+}
+
+scenegraph::Layout InspectorWindow::layout() const {
+  scenegraph::Layout layout = views_->layout();
+  scenegraph::WindowLayout& main = layout.windows.front();
+  main.width = width();
+  main.height = height();
+  main.docks = saveState().toBase64().toStdString();
+  return layout;
+}
+
+void InspectorWindow::restore(const scenegraph::Layout& layout) {
+  const scenegraph::WindowLayout& main = layout.windows.front();
+  if (!main.docks.empty()) {  // else it is one of a host, or written by hand
+    resize(main.width, main.height);
+    restoreState(QByteArray::fromBase64(QByteArray::fromStdString(main.docks)));
+  }
+  views_->arrange(layout);
+  if (!is_loading_) {
+    tellNotRestored();
+  }
+}
+
+bool InspectorWindow::openLayout(const std::filesystem::path& file) {
+  const auto layout = scenegraph::readLayout(file);
+  if (!layout) {
+    messages_->showMessage(scenegraph::StatusLevel::Error, QString::fromStdString(layout.error().message));
+    return false;
+  }
+  messages_->hide();
+  restore(*layout);
+  options_.layout_file = file;
+  return true;
+}
+
+bool InspectorWindow::saveLayout(const std::filesystem::path& file) {
+  const std::string text = scenegraph::writeXml(toXml(layout()));
+  QSaveFile target(named(file));
+  if (!target.open(QIODevice::WriteOnly) || target.write(text.data(), static_cast<qint64>(text.size())) < 0 ||
+      !target.commit()) {
+    messages_->showMessage(scenegraph::StatusLevel::Error,
+                           tr("%1 cannot be written: %2").arg(named(file), target.errorString()));
+    return false;
+  }
+  options_.layout_file = file;
+  return true;
+}
+
+/// What the views' layouts name and the recording does not have.
+void InspectorWindow::tellNotRestored() {
+  QStringList lines;
+  for (std::size_t i = 0; i < views().size(); ++i) {
+    for (const std::string& line : views()[i]->notRestored()) {
+      const QString text = QString::fromStdString(line);
+      lines += views().size() == 1 ? text : tr("view %1: %2").arg(i + 1).arg(text);
+    }
+  }
+  if (const auto count = static_cast<std::size_t>(lines.size()); count > kMostLines) {
+    lines.resize(kMostLines);
+    lines += tr("and %1 more").arg(count - kMostLines);
+  }
+  if (!lines.isEmpty()) {
+    messages_->showMessage(scenegraph::StatusLevel::Warn, lines.join(QLatin1Char('\n')));
+  }
+}
+
+}  // namespace stillframe::viewer

@@ -39,7 +39,7 @@ struct Picked {
         fields.emplace_back(std::move(name), static_cast<std::uint64_t>(value));
       }
     } else {
-      fields.emplace_back(std::move(name), PickValue(std::move(value)));
+      fields.emplace_back(std::move(name), std::move(value));
     }
   }
   /// Its translation as "NAME_x", ... and its rotation as "NAME_qx", ... "NAME_qw"; without a name "x", ... "qw".

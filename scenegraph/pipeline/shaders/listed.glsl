@@ -11,10 +11,11 @@ layout(binding = 2, rgba32ui) uniform writeonly uimage2D sf_fragments;
 
 void main() {
   sfMain();
-  vec4 color = vec4(gl_FragColor.rgb, min(gl_FragColor.a, 1.0));
-  if (!(color.a > 0.0)) {
+  // Above 0, by bits: a compiler may take it that there is no NaN.
+  if (floatBitsToUint(gl_FragColor.a) - 1u >= 0x7f800000u) {
     return;
   }
+  vec4 color = vec4(gl_FragColor.rgb, min(gl_FragColor.a, 1.0));
   ivec2 size = imageSize(sf_fragments);
   uint i = imageAtomicAdd(sf_count, ivec2(0), 1u);
   if (i < uint(size.x * size.y)) {

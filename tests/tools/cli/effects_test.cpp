@@ -48,16 +48,19 @@ class RenderEffects : public testing::Test {
 };
 
 TEST_F(RenderEffects, RunThePassesThatAreAskedForAndNoOthers) {
-  EXPECT_EQ(render("a.png", {}).json()["passes"], Names{"scene"});
+  // The sample has texts, which are blended.
+  EXPECT_EQ(render("a.png", {}).json()["passes"], (Names{"scene", "transparency"}));
   EXPECT_TRUE(render("a.png", {}).json()["effects"].empty());
   const auto said = render("a.png", {"--ssao:radius=1", "--edl", "--tonemap", "aces", "--exposure", "1", "--aa",
                                      "msaa:samples=4", "--dither"})
                         .json();
-  EXPECT_EQ(said["passes"], (Names{"scene", "resolve", "ssao", "ssao_apply", "edl", "tonemap", "dither"}));
+  EXPECT_EQ(said["passes"],
+            (Names{"scene", "transparency", "resolve", "ssao", "ssao_apply", "edl", "tonemap", "dither"}));
   EXPECT_EQ(said["effects"]["ssao"]["radius"], "1");
   EXPECT_EQ(said["effects"]["tonemap"]["curve"], "aces");
   EXPECT_GT(said["samples"].get<int>(), 1);
-  EXPECT_EQ(render("a.exr", {"--edl", "--tonemap", "aces", "--dither"}).json()["passes"], (Names{"scene", "edl"}));
+  EXPECT_EQ(render("a.exr", {"--edl", "--tonemap", "aces", "--dither"}).json()["passes"],
+            (Names{"scene", "transparency", "edl"}));
 }
 
 TEST_F(RenderEffects, ChangeThePicture) {

@@ -41,13 +41,6 @@ class ThreadPoolExecutor : public Executor {
     }
     wake_.notify_one();
   }
-  void submitSpare(std::function<void()> job) override {
-    {
-      const std::scoped_lock lock(mutex_);
-      spare_jobs_.push_back(std::move(job));
-    }
-    wake_.notify_one();
-  }
   void drain() override {
     std::unique_lock lock(mutex_);
     idle_.wait(lock, [this] { return unfinished_ == 0; });
@@ -57,37 +50,32 @@ class ThreadPoolExecutor : public Executor {
   void work() {
     std::unique_lock lock(mutex_);
     while (true) {
-      wake_.wait(lock, [this] { return is_ending_ || !jobs_.empty() || !spare_jobs_.empty(); });
-      if (jobs_.empty() && is_ending_) {
+      wake_.wait(lock, [this] { return is_ending_ || !jobs_.empty(); });
+      if (jobs_.empty()) {
         return;
       }
-      const bool is_spare = jobs_.empty();
-      std::deque<std::function<void()>>& queue = is_spare ? spare_jobs_ : jobs_;
-      std::function<void()> job = std::move(queue.front());
-      queue.pop_front();
+      std::function<void()> job = std::move(jobs_.front());
+      jobs_.pop_front();
       lock.unlock();
       job();
       job = nullptr;  // what the job owned goes before drain() returns
       lock.lock();
-      if (!is_spare && --unfinished_ == 0) {
+      if (--unfinished_ == 0) {
         idle_.notify_all();
       }
     }
   }
 
-  std::mutex mutex_;  // guards jobs_, spare_jobs_, unfinished_, is_ending_
+  std::mutex mutex_;  // guards jobs_, unfinished_, is_ending_
   std::condition_variable wake_;
   std::condition_variable idle_;
   std::deque<std::function<void()>> jobs_;
-  std::deque<std::function<void()>> spare_jobs_;
   std::size_t unfinished_ = 0;
   bool is_ending_ = false;
   std::vector<std::thread> threads_;
 };
 
 }  // namespace
-
-void Executor::submitSpare(std::function<void()> /*job*/) {}
 
 std::unique_ptr<Executor> makeSynchronousExecutor() { return std::make_unique<SynchronousExecutor>(); }
 

@@ -9,7 +9,6 @@
 
 #include "scenegraph/latest_job.h"
 #include "scenegraph/layer.h"
-#include "scenegraph/read_ahead.h"
 #include "scenegraph/sample_work.h"
 #include "scenegraph/status.h"
 #include "scenegraph/store/dataset.h"
@@ -21,8 +20,7 @@ namespace stillframe::scenegraph {
 ///
 /// The one decoding pattern of all layers (REQUIREMENTS C3): product in the cache? else decode, convert and cache it on
 /// the executor, latest wins; a tick that resolves to the sample already shown does nothing; a failed sample clears the
-/// view and is never tried again. While a sample is under way the one before stays, and status() says so. Where the
-/// executor has time to spare, the next sample in the direction of play is made ready.
+/// view and is never tried again. While a sample is under way the one before stays, and status() says so.
 ///
 /// ```cpp
 /// loader_.emplace(context, ObjectType::PointCloud, topic_, "points", [](const AnyObject& object, const Entry&) {
@@ -47,7 +45,6 @@ class SampleLoader {
         shared_(std::make_shared<const Shared>(
             Shared{context.dataset.shared_from_this(), type, topic_name_, std::move(tag), std::move(convert)})),
         is_reference_(std::move(is_reference)),
-        ahead_(context.executor),
         sample_job_(context.executor, context.request_update),
         reference_job_(context.executor, context.request_update) {}
 
@@ -65,10 +62,8 @@ class SampleLoader {
     }
     auto product = shared_->dataset->cache().template get<Product>(key);
     if (product == nullptr) {
-      sample_job_.request(key, [shared = shared_, topic = *topic_, entry = *entry, key, wait_for = ahead_.waiter()] {
-        wait_for(key);
-        return shared->get(topic, entry);
-      });
+      sample_job_.request(key,
+                          [shared = shared_, topic = *topic_, entry = *entry] { return shared->load(topic, entry); });
       auto outcome = sample_job_.take();
       if (!outcome) {
         return show(entry_, product_, decoding(*entry));
@@ -84,7 +79,6 @@ class SampleLoader {
     }
     shown_key_ = key;
     shown_status_ = {};
-    readAhead(*entry, product->byteSize());
     return show(entry, std::move(product), {});
   }
 
@@ -137,13 +131,6 @@ class SampleLoader {
   std::optional<Entry> entryAt(tf::TimePoint time) {
     return findTopic() ? shared_->dataset->store().newestAtOrBefore(*topic_, time) : std::nullopt;
   }
-  void readAhead(const Entry& shown, std::size_t bytes) {
-    const bool is_forwards = !entry_ || entry_->log_time <= shown.log_time;
-    if (const auto next = shared_->neighbour(*topic_, shown, is_forwards, bytes)) {
-      ahead_.request(cacheKey(*topic_, *next, shared_->tag),
-                     [shared = shared_, topic = *topic_, next = *next] { shared->tryGet(topic, next); });
-    }
-  }
   [[nodiscard]] Status noMessage(tf::TimePoint time) const {
     if (!topic_) {
       return {StatusLevel::Warn, "NoTopic",
@@ -184,7 +171,6 @@ class SampleLoader {
   std::shared_ptr<const Product> product_;
   Status status_{StatusLevel::Warn, "NoMessage", ""};
   std::optional<Scan> scan_;
-  ReadAhead ahead_;
   LatestJob<Product> sample_job_;
   LatestJob<Scan> reference_job_;
 };

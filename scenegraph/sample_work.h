@@ -2,11 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <expected>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -56,29 +54,6 @@ struct SampleWork {
     dataset->cache().put(cacheKey(topic, entry, tag), product, product->byteSize());
     return product;
   }
-  /// The same, from the cache where it is there.
-  [[nodiscard]] Loaded get(TopicId topic, const Entry& entry) const {
-    auto there = dataset->cache().template get<Product>(cacheKey(topic, entry, tag));
-    return there != nullptr ? Loaded(std::move(there)) : load(topic, entry);
-  }
-  /// get() for whoever may want it later: what fails, fails again when it is wanted, and says so then.
-  void tryGet(TopicId topic, const Entry& entry) const noexcept {
-    try {
-      (void)get(topic, entry);
-    } catch (const std::exception&) {  // as above
-    }
-  }
-  /// The entry behind `entry`, or before it; nullopt too where the cache has no room for products of `bytes` beside
-  /// those in use.
-  [[nodiscard]] std::optional<Entry> neighbour(TopicId topic, const Entry& entry, bool is_forwards,
-                                               std::size_t bytes) const {
-    constexpr std::size_t kInUse = 3;
-    const std::size_t behind = dataset->store().countAtOrBefore(topic, entry.log_time);
-    if (bytes > dataset->cache().maxBytes() / kInUse || (!is_forwards && behind < 2)) {
-      return std::nullopt;
-    }
-    return dataset->store().at(topic, is_forwards ? behind : behind - 2);
-  }
   /// The first product from entry `first` on, before entry `count`, that `accept` takes.
   [[nodiscard]] std::expected<std::shared_ptr<const SampleScan<Product>>, Status> scan(
       TopicId topic, std::size_t first, std::size_t count, const std::function<bool(const Product&)>& accept) const {
@@ -92,7 +67,10 @@ struct SampleWork {
       }
       ++scan->looked;
       scan->last_sequence = entry->sequence;
-      auto product = get(topic, *entry).value_or(nullptr);
+      auto product = dataset->cache().template get<Product>(cacheKey(topic, *entry, tag));
+      if (product == nullptr) {
+        product = load(topic, *entry).value_or(nullptr);
+      }
       scan->product = product != nullptr && accept(*product) ? std::move(product) : nullptr;
     }
     return scan;

@@ -33,12 +33,17 @@ struct SampleWork {
   std::string tag;
   std::function<std::expected<Product, Status>(const AnyObject&, const Entry&)> convert;
 
-  /// The product of one entry, put into the cache.
+  /// The product of one entry, put into the cache; made once, however many ask at a time.
   [[nodiscard]] Loaded load(TopicId topic, const Entry& entry) const {
     const auto fail = [&](StatusLevel level, const std::string& code, const std::string& message) {
       return std::unexpected(
           Status{level, code, "'" + topic_name + "' at " + timeText(entry.log_time) + ": " + message});
     };
+    const CacheKey key = cacheKey(topic, entry, tag);
+    const ObjectCache::Claim claim(dataset->cache(), key);
+    if (auto made = dataset->cache().template peek<Product>(key)) {
+      return made;  // by another layer's worker, meanwhile
+    }
     const auto object = dataset->store().decode(topic, entry);
     if (!object) {
       return fail(StatusLevel::Error, object.error().code, object.error().message);
@@ -51,7 +56,7 @@ struct SampleWork {
       return fail(converted.error().level, converted.error().code, converted.error().message);
     }
     auto product = std::make_shared<const Product>(std::move(*converted));
-    dataset->cache().put(cacheKey(topic, entry, tag), product, product->byteSize());
+    dataset->cache().put(key, product, product->byteSize());
     return product;
   }
   /// The first product from entry `first` on, before entry `count`, that `accept` takes.

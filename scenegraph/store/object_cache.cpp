@@ -1,6 +1,7 @@
 #include "scenegraph/store/object_cache.h"
 
 #include <functional>
+#include <utility>
 
 namespace stillframe::scenegraph {
 
@@ -29,6 +30,26 @@ std::shared_ptr<const void> ObjectCache::find(const CacheKey& key) {
   ++hits_;
   items_.splice(items_.begin(), items_, found->second);
   return found->second->product;
+}
+
+std::shared_ptr<const void> ObjectCache::findUncounted(const CacheKey& key) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = index_.find(key);
+  return found == index_.end() ? nullptr : found->second->product;
+}
+
+ObjectCache::Claim::Claim(ObjectCache& cache, CacheKey key) : cache_(cache), key_(std::move(key)) {
+  std::unique_lock lock(cache_.mutex_);
+  cache_.released_.wait(lock, [this] { return !cache_.claimed_.contains(key_); });
+  cache_.claimed_.insert(key_);
+}
+
+ObjectCache::Claim::~Claim() {
+  {
+    const std::scoped_lock lock(cache_.mutex_);
+    cache_.claimed_.erase(key_);
+  }
+  cache_.released_.notify_all();
 }
 
 void ObjectCache::put(const CacheKey& key, std::shared_ptr<const void> product, std::size_t bytes) {

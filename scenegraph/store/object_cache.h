@@ -1,5 +1,6 @@
 #pragma once
 
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <list>
@@ -7,6 +8,7 @@
 #include <mutex>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "scenegraph/store/object_store.h"
 
@@ -41,6 +43,24 @@ class ObjectCache {
   [[nodiscard]] std::shared_ptr<const T> get(const CacheKey& key) {
     return std::static_pointer_cast<const T>(find(key));
   }
+  /// get(), uncounted: for whoever has claimed the key.
+  template <typename T>
+  [[nodiscard]] std::shared_ptr<const T> peek(const CacheKey& key) {
+    return std::static_pointer_cast<const T>(findUncounted(key));
+  }
+  /// The right to make the product of a key, held until it is destroyed. Who asks meanwhile, for a second layer or view
+  /// of the same topic, waits, and then finds the product by peek(). Not from within the work of another claim.
+  class Claim {
+   public:
+    Claim(ObjectCache& cache, CacheKey key);
+    ~Claim();
+    Claim(const Claim&) = delete;
+    Claim& operator=(const Claim&) = delete;
+
+   private:
+    ObjectCache& cache_;
+    CacheKey key_;
+  };
   /// Keeps a product; replaces an older one of the same key.
   void put(const CacheKey& key, std::shared_ptr<const void> product, std::size_t bytes);
   void setMaxBytes(std::size_t max_bytes);
@@ -55,6 +75,7 @@ class ObjectCache {
     std::size_t bytes = 0;
   };
   std::shared_ptr<const void> find(const CacheKey& key);
+  std::shared_ptr<const void> findUncounted(const CacheKey& key);
   void evict(std::list<Item>& dropped);  // moves what is over the bound to `dropped`
 
   mutable std::mutex mutex_;  // guards everything below
@@ -64,6 +85,8 @@ class ObjectCache {
   std::size_t max_bytes_;
   std::uint64_t hits_ = 0;
   std::uint64_t misses_ = 0;
+  std::unordered_set<CacheKey, CacheKeyHash> claimed_;
+  std::condition_variable released_;  // a key of claimed_
 };
 
 }  // namespace stillframe::scenegraph

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
 #include <vector>
 
@@ -74,6 +75,29 @@ TEST(ObjectCache, AProductInUseOutlivesItsEviction) {
   const auto in_use = cache.get<int>(key(1));
   cache.put(key(2), number(2), 10);
   EXPECT_EQ(*in_use, 1);
+}
+
+TEST(ObjectCache, WhatManyWantAtATimeIsMadeOnce) {
+  ObjectCache cache(100);
+  std::atomic<int> made = 0;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 8; ++t) {
+    threads.emplace_back([&] {
+      const ObjectCache::Claim claim(cache, key(1));
+      if (cache.peek<int>(key(1)) == nullptr) {
+        std::this_thread::yield();
+        ++made;
+        cache.put(key(1), number(1), 10);
+      }
+    });
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  EXPECT_EQ(made, 1);
+  const ObjectCache::Claim one(cache, key(2));
+  const ObjectCache::Claim other(cache, key(3));  // another key does not wait
+  EXPECT_EQ(cache.misses(), 0U) << "looking whether another has made it counts for nothing";
 }
 
 TEST(ObjectCache, MayBeUsedFromManyThreads) {

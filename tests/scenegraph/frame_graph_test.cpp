@@ -178,10 +178,27 @@ TEST(PlacementStatus, NamesTheRemedyForAStaticTransformThatComesLate) {
   EXPECT_TRUE(graph.fixedFromFrame("lidar")) << "the remedy helps";
 }
 
-TEST(PlacementStatus, ADynamicEdgeHasNoSuchRemedy) {
+TEST(PlacementStatus, ADynamicEdgeSaysWhenItBegins) {
   FrameGraph graph{TfBuilder().edge("base", "lidar").at(10_s, translate(1, 0, 0)).build()};
   graph.setTick("base", {5_s});
-  EXPECT_FALSE(whyNot(graph, "lidar").message.contains("static")) << whyNot(graph, "lidar").message;
+  const std::string message = whyNot(graph, "lidar").message;
+  EXPECT_FALSE(message.contains("static")) << message;
+  EXPECT_TRUE(message.contains("comes first at 10.000000000 s: go there")) << message;
+}
+
+TEST(PlacementStatus, ADisconnectedFrameNamesTheRootOfItsTree) {
+  FrameGraph graph{TfBuilder()
+                       .edge("map", "base")
+                       .at(0, translate(1, 0, 0))
+                       .edge("island", "hut")
+                       .at(0, translate(1, 0, 0))
+                       .edge("hut", "lamp")
+                       .at(0, translate(1, 0, 0))
+                       .build()};
+  graph.setTick("map", {0});
+  EXPECT_EQ(whyNot(graph, "lamp").code, "Disconnected");
+  EXPECT_TRUE(whyNot(graph, "lamp").message.contains("choose 'island' as fixed frame"))
+      << whyNot(graph, "lamp").message;
 }
 
 TEST(PlacementStatus, AnUnknownFixedFrameGetsNearNamesOrTheRoots) {
@@ -203,7 +220,7 @@ TEST(PlacementStatus, NamesTheUnknownOrMissingFrameOfTheData) {
   FrameGraph graph{TfBuilder().edge("map", "base").at(0, translate(1, 0, 0)).build()};
   graph.setTick("map", {0});
   EXPECT_EQ(whyNot(graph, "lidar").code, "UnknownSource");
-  EXPECT_TRUE(whyNot(graph, "lidar").message.contains("'lidar'"));
+  EXPECT_TRUE(whyNot(graph, "lidar").message.contains("choose 'lidar' as fixed frame"));
   EXPECT_TRUE(whyNot(graph, "").message.contains("frame_id is empty"));
 }
 

@@ -1,6 +1,8 @@
 #include "nodes/coloring.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "nodes/points/colormap.h"
 
@@ -9,6 +11,21 @@ namespace stillframe::nodes {
 RangeMap ValueColoring::map(const ValueRange& range, double offset) const noexcept {
   const RangeMap map = mapRange(range, offset);
   return reverse_colormap ? RangeMap{-map.scale, 1.0 - map.bias} : map;
+}
+
+scenegraph::ColorLegend ValueColoring::legend(std::string title, std::string unit, const ValueRange& range) const {
+  const Colormap* const found = findColormap(colormap);
+  const Colormap& map = found != nullptr ? *found : colormaps().front();
+  scenegraph::ColorLegend legend{std::move(title), std::move(unit), range.low, range.high,
+                                 {map.anchors.begin(), map.anchors.end()}};
+  if (reverse_colormap) {
+    std::ranges::reverse(legend.colors);
+  }
+  return legend;
+}
+
+std::string axisTitle(int axis, const std::string& fixed_frame) {
+  return std::string(1, "xyz"[axis]) + (fixed_frame.empty() ? "" : " in " + fixed_frame);
 }
 
 scenegraph::SettingsTable<ValueColoring> valueColoringTable(const std::string& auto_help, const std::string& unit) {

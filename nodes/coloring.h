@@ -8,6 +8,7 @@
 #include "nodes/points/channel.h"
 #include "nodes/points/colormap.h"
 #include "nodes/points/value_range.h"
+#include "scenegraph/color_legend.h"
 #include "scenegraph/settings.h"
 #include "tf/rigid_transform.h"
 
@@ -33,6 +34,8 @@ struct ValueColoring {
            : range_mode == "percentile" ? percentiles(percentile_low, percentile_high)
                                         : limits();
   }
+  /// What the colours over `range` mean.
+  [[nodiscard]] scenegraph::ColorLegend legend(std::string title, std::string unit, const ValueRange& range) const;
   /// t of values stored less `offset`, run backwards where the colormap is.
   [[nodiscard]] RangeMap map(const ValueRange& range, double offset = 0.0) const noexcept;
 };
@@ -44,6 +47,8 @@ struct ValueColoring {
 /// What a box of the data, low to high, reaches along an axis of the fixed frame.
 [[nodiscard]] ValueRange extentAlong(int axis, const tf::RigidTransform& fixed_from_data, const glm::dvec3& low,
                                      const glm::dvec3& high);
+/// "z in map": what values along an axis are, in that frame.
+[[nodiscard]] std::string axisTitle(int axis, const std::string& fixed_frame);
 /// t = dot(xyz, p) + w of points p of the data less `origin`, over a range along that axis; the shader's u_axis.
 [[nodiscard]] glm::dvec4 axisMap(const ValueColoring& coloring, const ValueRange& range, int axis,
                                  const tf::RigidTransform& fixed_from_data, const glm::dvec3& origin = glm::dvec3(0.0));

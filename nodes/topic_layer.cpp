@@ -85,6 +85,12 @@ std::optional<scenegraph::Picked> TopicLayer::describe(const scenegraph::PickHit
   return is_ours ? describeData(hit) : std::nullopt;
 }
 
+void TopicLayer::collectNodes(std::vector<osg::Node*>& nodes) const {
+  if (held_frame_) {
+    nodes.push_back(node_);
+  }
+}
+
 void TopicLayer::hold(const std::optional<std::string>& frame) {
   if (held_frame_ == frame) {
     return;

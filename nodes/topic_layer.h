@@ -8,6 +8,7 @@
 #include <osg/ref_ptr>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenegraph/layer.h"
 
@@ -32,6 +33,7 @@ class TopicLayer : public scenegraph::Layer {
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const final { return bounds_; }
   [[nodiscard]] std::vector<scenegraph::Box> bulkInFixed() const final;
   [[nodiscard]] std::optional<scenegraph::Picked> describe(const scenegraph::PickHit& hit) const final;
+  void collectNodes(std::vector<osg::Node*>& nodes) const final;
 
  protected:
   /// fixed_from_data at the tick.

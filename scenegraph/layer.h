@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <osg/BoundingBox>
+#include <osg/Node>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 
 #include "scenegraph/camera/box.h"
 #include "scenegraph/camera/picking.h"
+#include "scenegraph/color_legend.h"
 #include "scenegraph/executor.h"
 #include "scenegraph/frame_graph.h"
 #include "scenegraph/osg_box.h"
@@ -87,6 +89,14 @@ class Layer {
   [[nodiscard]] virtual std::vector<Box> bulkInFixed() const { return {toBox(boundsInFixed())}; }
   /// What the id pass has hit, with all its fields; nullopt when that is none of what this layer draws.
   [[nodiscard]] virtual std::optional<Picked> describe(const PickHit& /*hit*/) const { return std::nullopt; }
+
+  /// What the colours mean, where values have colours; nullopt when nothing is shown or it has colours of its own.
+  [[nodiscard]] virtual std::optional<ColorLegend> legend() const { return std::nullopt; }
+  /// Work that counts the values behind legend(), milliseconds per million: for any thread, and free of this layer.
+  /// Empty when there is nothing to count.
+  [[nodiscard]] virtual std::function<ValueHistogram()> histogramWork() const { return nullptr; }
+  /// The nodes it has put into the graph now, each on top of all that is the layer's beneath it: to see what they cost.
+  virtual void collectNodes(std::vector<osg::Node*>& /*nodes*/) const {}
 
   /// Settings and what they may be now (a colour field's choices come from the data).
   [[nodiscard]] virtual std::vector<SettingSpec> settingSpecs() const = 0;

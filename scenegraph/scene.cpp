@@ -170,9 +170,11 @@ std::expected<LayerSlot*, Status> Scene::addLayer(std::string_view id) {
   if (type == nullptr) {
     return std::unexpected(refusal(topic));
   }
-  layers_.push_back(std::make_unique<LayerSlot>(
-      LayerSlot{std::string(id), std::string(topic), std::string(id), type, type->create(topic)}));
-  layers_.back()->layer->attach(context_);
+  layers_.push_back(
+      std::make_unique<LayerSlot>(LayerSlot{std::string(id), std::string(topic), std::string(id), type,
+                                            std::make_unique<WorkMeter>(context_.executor), type->create(topic)}));
+  LayerSlot& added = *layers_.back();
+  added.layer->attach({context_.dataset, context_.frames, *added.meter, context_.request_update});
   removed_topics_.erase(std::string(id));
   ++layers_revision_;
   return layers_.back().get();
@@ -274,6 +276,7 @@ bool Scene::update(tf::TimePoint time) {
   }
   const bool has_new_settings = noteSettings();
   const bool is_same = shown_ == inputs && !has_new_settings && !had_new_work && !had_pending;
+  settings_revision_ += has_new_settings || !shown_ || shown_->layers_revision != layers_revision_ ? 1 : 0;
   shown_ = std::move(inputs);
   return !is_same;
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "scenegraph/layer.h"
+#include "scenegraph/work_meter.h"
 
 namespace stillframe::scenegraph {
 
@@ -24,7 +25,8 @@ struct LayerSlot {
   std::string topic;  ///< or the type's name for a built-in
   std::string title;  ///< for people: the id until somebody gives it another
   const LayerType* type = nullptr;
-  std::unique_ptr<Layer> layer;
+  std::unique_ptr<WorkMeter> meter;  ///< of the layer's background work
+  std::unique_ptr<Layer> layer;      // after the meter, which it uses
 };
 
 /// What one view shows: its fixed frame, its layers and their graph; no window, no camera, no Qt.
@@ -41,6 +43,8 @@ class Scene {
   [[nodiscard]] osg::Group& root() noexcept { return frames_.root(); }
   [[nodiscard]] FrameGraph& frames() noexcept { return frames_; }
   [[nodiscard]] const FrameGraph& frames() const noexcept { return frames_; }
+  /// Where background work for what is shown may run.
+  [[nodiscard]] Executor& executor() noexcept { return context_.executor; }
 
   /// Frame chosen by hand, or nullopt to choose by itself: map, world, odom, ... else the root with the most frames.
   void setFixedFrame(std::optional<std::string> frame);
@@ -82,6 +86,8 @@ class Scene {
   bool update(tf::TimePoint time);
   [[nodiscard]] tf::TimePoint time() const noexcept { return time_; }
   [[nodiscard]] bool isPending() const;
+  /// Another number whenever update() has found settings, visibility, order or number of layers changed.
+  [[nodiscard]] std::uint64_t settingsRevision() const noexcept { return settings_revision_; }
   /// What the next picture is drawn from, for the layers that arrange something in it; after update().
   void setView(const CameraView& view, const PictureSize& size);
   /// Box of all visible layers in the fixed frame; the axes count, the reference grid does not.
@@ -122,6 +128,7 @@ class Scene {
   tf::TimePoint time_;
   std::optional<Inputs> shown_;
   std::vector<std::pair<bool, SettingTexts>> shown_settings_;
+  std::uint64_t settings_revision_ = 0;
 };
 
 /// The frame a new view takes when nobody chose one: the first of map, world, earth, odom, base_link, base_footprint

@@ -41,6 +41,10 @@ struct SettingSpec {
   double maximum = 0.0;
   std::vector<std::string> choices = {};
   bool choices_only = false;
+  /// Settings of many like things, each with its own, are shown as a row a thing, which "Namespaces" or "Links" (the
+  /// group) fold away; a Bool is the row's check box.
+  std::string group = {};
+  std::string item = {};  ///< the thing's name, for people
 };
 
 /// Settings by key in text form: what the CLI parses and layouts store. Text round-trips exactly.

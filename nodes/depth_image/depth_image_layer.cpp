@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "nodes/images/depth_map.h"
 #include "nodes/points/record_fields.h"
+#include "nodes/points/value_histogram.h"
 #include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
@@ -44,6 +46,7 @@ void DepthImageLayer::close() {
 
 void DepthImageLayer::clear() {
   SampleLayer::clear();
+  range_.reset();
   show({});
   camera_->cancel();
   color_->cancel();
@@ -86,10 +89,31 @@ void DepthImageLayer::draw(const Placement& /*fixed_from_data*/) {
       chosen().range([&] { return ValueRange{reference()->nearest_m, reference()->farthest_m}; },
                      [&](double low, double high) { return percentiles_.of(reference(), low, high); });
   const bool is_flat = chosen().color_mode == "flat";
+  range_.reset();
+  if (!is_flat && shown_.colors == nullptr && shown_.depth != nullptr && shown_.rays != nullptr) {
+    range_ = range;
+  }
   state_.setColor(is_flat                    ? DepthColor::Flat
                   : shown_.colors != nullptr ? DepthColor::Rgb
                                              : DepthColor::Depth,
                   chosen().map(range));
+}
+
+std::optional<scenegraph::ColorLegend> DepthImageLayer::legend() const {
+  return range_ ? std::optional(chosen().legend("depth", "m", *range_)) : std::nullopt;
+}
+
+std::function<scenegraph::ValueHistogram()> DepthImageLayer::histogramWork() const {
+  if (!range_) {
+    return nullptr;
+  }
+  return [depth = shown_.depth] {
+    std::vector<float> depths;
+    depths.reserve(depth->valid);
+    std::ranges::copy_if(depth->depths->asVector(), std::back_inserter(depths),
+                         [](float metres) { return metres > 0; });
+    return histogramOf(depths, 0.0);
+  };
 }
 
 std::optional<DepthImageLayer::Joined> DepthImageLayer::join(tf::TimePoint time) {

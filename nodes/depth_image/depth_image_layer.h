@@ -33,6 +33,8 @@ class DepthImageLayer final : public SampleLayer<DepthFrame, DepthImageSettings>
   /// message's data, "residual_npx": the largest error of the rectification in 1e-9 pixels.
   [[nodiscard]] scenegraph::LayerCounts counts() const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
+  [[nodiscard]] std::optional<scenegraph::ColorLegend> legend() const override;
+  [[nodiscard]] std::function<scenegraph::ValueHistogram()> histogramWork() const override;
 
  private:
   /// What is drawn: a depth image with its rays and colours; without rays nothing is.
@@ -80,6 +82,7 @@ class DepthImageLayer final : public SampleLayer<DepthFrame, DepthImageSettings>
   Extent extent_;
   std::optional<float> measured_limit_;
   Percentiles percentiles_;
+  std::optional<ValueRange> range_;  // of the colours, where they are of depths
   osg::ref_ptr<osg::Geometry> geometry_;
   DepthState state_;
 };

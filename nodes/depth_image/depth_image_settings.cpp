@@ -1,5 +1,7 @@
 #include "nodes/depth_image/depth_image_settings.h"
 
+#include "nodes/common_specs.h"
+
 namespace stillframe::nodes {
 
 const scenegraph::SettingsTable<DepthImageSettings>& depthImageSettingsTable() {
@@ -23,8 +25,7 @@ const scenegraph::SettingsTable<DepthImageSettings>& depthImageSettingsTable() {
                 .minimum = 0,
                 .maximum = 1000},
                &S::point_size},
-              {{.key = "flat_color", .label = "Flat colour", .help = "Colour when flat.", .kind = SettingKind::Color},
-               &S::flat_color},
+              {flatColorSpec(), &S::flat_color},
               {{.key = "max_depth_m",
                 .label = "Farthest (m)",
                 .help = "Depths beyond it are not drawn; 0 draws all.",

@@ -149,6 +149,12 @@ void GridLayer::setVisible(bool visible) {
   }
 }
 
+void GridLayer::collectNodes(std::vector<osg::Node*>& nodes) const {
+  if (held_frame_) {
+    nodes.push_back(geometry_);
+  }
+}
+
 scenegraph::LayerCounts GridLayer::counts() const {
   return {{"cells", static_cast<std::uint64_t>(settings_.cells * settings_.cells)}};
 }

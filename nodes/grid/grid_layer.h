@@ -42,6 +42,7 @@ class GridLayer final : public scenegraph::Layer {
   [[nodiscard]] std::string sourceFrame() const override { return held_frame_.value_or(""); }
   [[nodiscard]] bool isPending() const override { return false; }
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const override { return {}; }
+  void collectNodes(std::vector<osg::Node*>& nodes) const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
   std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;

@@ -8,6 +8,7 @@
 #include "nodes/osg_math.h"
 #include "nodes/points/read_value.h"
 #include "nodes/points/record_fields.h"
+#include "nodes/points/value_histogram.h"
 
 namespace stillframe::nodes {
 
@@ -97,6 +98,7 @@ GridMapLayer::Choice GridMapLayer::choose(const GridMapSettings& settings, const
 
 void GridMapLayer::show() {
   choice_.reset();
+  range_.reset();
   reapply();
   box_.init();
   triangles_ = 0;
@@ -149,6 +151,7 @@ void GridMapLayer::build(const Choice& choice) {
 
 void GridMapLayer::paint() {
   RangeMap map;
+  range_.reset();
   osg::Texture2D* texture = nullptr;
   if (choice_->mode == MapColorMode::Rgb) {
     texture = product()->colors();
@@ -158,12 +161,11 @@ void GridMapLayer::paint() {
     const MapLayer* const of_reference = chosen().range_mode == "manual" ? nullptr : reference()->layer(choice_->color);
     const bool is_held = of_reference != nullptr && of_reference->limits.finite > 0;
     const ChannelValues& limits = is_held ? of_reference->limits : layer->limits;
-    const ValueRange range =
-        chosen().range([&] { return ValueRange{limits.low, limits.high}; },
-                       [&](double low, double high) {
-                         return (is_held ? *reference() : *product()).percentiles(choice_->color, low, high);
-                       });
-    map = chosen().map(range, layer->limits.offset);
+    range_ = chosen().range([&] { return ValueRange{limits.low, limits.high}; },
+                            [&](double low, double high) {
+                              return (is_held ? *reference() : *product()).percentiles(choice_->color, low, high);
+                            });
+    map = chosen().map(*range_, layer->limits.offset);
   }
   if (takeSettings()) {
     state_.apply(chosen(), !choice_->height.empty(), choice_->mode == MapColorMode::Rgb && product()->cells().alpha);
@@ -217,6 +219,26 @@ Status GridMapLayer::remark() const {
                 fieldNames(product()->cells().colors.has_value(), product()->cells().layers)};
   }
   return {};
+}
+
+std::optional<scenegraph::ColorLegend> GridMapLayer::legend() const {
+  if (!range_ || triangles_ == 0) {
+    return std::nullopt;
+  }
+  // A layer that gives the height is in metres; of the others the message does not say.
+  return chosen().legend(choice_->color, choice_->color == choice_->height ? "m" : "", *range_);
+}
+
+std::function<scenegraph::ValueHistogram()> GridMapLayer::histogramWork() const {
+  if (!legend()) {
+    return nullptr;
+  }
+  return [map = product(), name = choice_->color] {
+    const MapLayer& layer = *map->layer(name);
+    const osg::Image& texels = *layer.texture->getImage();
+    return histogramOf({reinterpret_cast<const float*>(texels.data()), texels.getTotalSizeInBytes() / sizeof(float)},
+                       layer.limits.offset);
+  };
 }
 
 scenegraph::LayerCounts GridMapLayer::counts() const {

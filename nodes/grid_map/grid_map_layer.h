@@ -30,6 +30,8 @@ class GridMapLayer final : public SampleLayer<GridSurface, GridMapSettings> {
   /// "cells" of the map, "triangles" drawn, "bytes" of the message's data.
   [[nodiscard]] scenegraph::LayerCounts counts() const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
+  [[nodiscard]] std::optional<scenegraph::ColorLegend> legend() const override;
+  [[nodiscard]] std::function<scenegraph::ValueHistogram()> histogramWork() const override;
 
  private:
   /// What the settings mean for one map; empty names where there is none.
@@ -55,8 +57,9 @@ class GridMapLayer final : public SampleLayer<GridSurface, GridMapSettings> {
   void paint();
 
   std::optional<Choice> choice_;
-  float flat_step_ = 1.0F;  // where it lies when flat
-  osg::BoundingBoxd box_;   // of what is drawn, in the map's own frame
+  std::optional<ValueRange> range_;  // of the colours, where they are of values
+  float flat_step_ = 1.0F;           // where it lies when flat
+  osg::BoundingBoxd box_;            // of what is drawn, in the map's own frame
   std::size_t triangles_ = 0;
   osg::ref_ptr<osg::Geometry> geometry_;
   GridMapState state_;

@@ -1,5 +1,7 @@
 #include "nodes/grid_map/grid_map_settings.h"
 
+#include "nodes/common_specs.h"
+
 namespace stillframe::nodes {
 
 const scenegraph::SettingsTable<GridMapSettings>& gridMapSettingsTable() {
@@ -31,22 +33,9 @@ const scenegraph::SettingsTable<GridMapSettings>& gridMapSettingsTable() {
                 .help = "Light on the slopes of a surface.",
                 .kind = SettingKind::Bool},
                &S::shading},
-              {{.key = "opacity",
-                .label = "Opacity",
-                .help = "1 hides what is behind.",
-                .kind = SettingKind::Double,
-                .minimum = 0,
-                .maximum = 1},
-               &S::opacity},
-              {{.key = "flat_color",
-                .label = "One colour",
-                .help = "Colour when coloured flat.",
-                .kind = SettingKind::Color},
-               &S::flat_color},
-              {{.key = "missing_color",
-                .label = "NaN colour",
-                .help = "Colour of a surface's cells whose colour layer is NaN; a flat map has holes there.",
-                .kind = SettingKind::Color},
+              {opacitySpec(), &S::opacity},
+              {flatColorSpec(), &S::flat_color},
+              {missingColorSpec("Colour of a surface's cells whose colour layer is NaN; a flat map has holes there."),
                &S::missing_color}});
   return kTable;
 }

@@ -164,6 +164,12 @@ void MarkerPicture::dropEmptyFrames() {
   });
 }
 
+void MarkerPicture::collectNodes(std::vector<osg::Node*>& nodes) const {
+  for (const auto& [frame, parts] : parts_) {
+    nodes.push_back(&parts->node());
+  }
+}
+
 MarkerPicture::Counts MarkerPicture::counts() const {
   Counts counts{.entities = entities_, .primitives = primitives_, .hidden = hidden_};
   for (const auto& [frame, parts] : parts_) {

@@ -51,6 +51,7 @@ class MarkerPicture {
     std::uint64_t failed_models = 0;
   };
   [[nodiscard]] Counts counts() const;
+  void collectNodes(std::vector<osg::Node*>& nodes) const;
   /// Of the entities that are there, drawn or not.
   [[nodiscard]] std::set<std::string> namespaces() const;
   /// Frames that something is drawn in, in the order of their names.

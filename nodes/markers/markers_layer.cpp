@@ -165,6 +165,12 @@ std::optional<std::string> MarkersLayer::movedFrame(tf::TimePoint time) const {
   return std::nullopt;
 }
 
+void MarkersLayer::collectNodes(std::vector<osg::Node*>& nodes) const {
+  if (picture_) {
+    picture_->collectNodes(nodes);
+  }
+}
+
 scenegraph::LayerCounts MarkersLayer::counts() const {
   const auto counts = picture_ ? picture_->counts() : MarkerPicture::Counts{};
   return {{"entities", counts.entities},

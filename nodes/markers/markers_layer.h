@@ -42,6 +42,7 @@ class MarkersLayer final : public scenegraph::Layer {
   [[nodiscard]] std::optional<scenegraph::Picked> describe(const scenegraph::PickHit& hit) const override {
     return visible_ && picture_ ? picture_->describe(hit) : std::nullopt;
   }
+  void collectNodes(std::vector<osg::Node*>& nodes) const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
   std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <variant>
 
+#include "nodes/common_specs.h"
+
 namespace stillframe::nodes {
 namespace {
 
@@ -20,13 +22,7 @@ constexpr std::size_t kMostSwitches = 200;  // a row each in the window
 const scenegraph::SettingsTable<MarkersSettings>& table() {
   using S = MarkersSettings;
   static const scenegraph::SettingsTable<S> kTable{
-      {{.key = "opacity",
-        .label = "Opacity",
-        .help = "Multiplies the markers' own.",
-        .kind = SettingKind::Double,
-        .minimum = 0,
-        .maximum = 1},
-       &S::opacity},
+      {opacitySpec("Multiplies the markers' own."), &S::opacity},
       {{.key = "texts", .label = "Texts", .help = "Draw text markers.", .kind = SettingKind::Bool}, &S::texts}};
   return kTable;
 }
@@ -59,7 +55,9 @@ SettingSpec switchOf(const std::string& name) {
   return {.key = namespaceKey(name),
           .label = name.empty() ? "No namespace" : "Namespace " + name,
           .help = "Draw the markers of this namespace.",
-          .kind = SettingKind::Bool};
+          .kind = SettingKind::Bool,
+          .group = "Namespaces",
+          .item = name.empty() ? "(none)" : name};
 }
 
 /// What there are switches for.

@@ -129,6 +129,21 @@ Status OccupancyGridLayer::remark() const {
   return {};
 }
 
+/// Of the values between the special ones (unknown, invalid; in costmaps 0, 99 and 100).
+std::optional<scenegraph::ColorLegend> OccupancyGridLayer::legend() const {
+  if (product_ == nullptr) {
+    return std::nullopt;
+  }
+  if (settings_.color_scheme == "raw") {
+    return scenegraph::ColorLegend{"byte", "", 0.0, 255.0, {{0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}}};
+  }
+  if (settings_.color_scheme == "costmap") {
+    const auto color = [](float byte) { return std::array{byte / 255.0F, 0.0F, 1.0F - byte / 255.0F}; };
+    return scenegraph::ColorLegend{"cost", "", 1.0, 98.0, {color(2.0F), color(249.0F)}};
+  }
+  return scenegraph::ColorLegend{"occupancy", "%", 0.0, 100.0, {{1.0F, 1.0F, 1.0F}, {0.0F, 0.0F, 0.0F}}};
+}
+
 scenegraph::LayerCounts OccupancyGridLayer::counts() const {
   if (product_ == nullptr) {
     return {{"cells", 0}, {"unknown", 0}, {"occupied", 0}, {"invalid", 0}, {"updates", 0}};

@@ -26,6 +26,7 @@ class OccupancyGridLayer final : public TopicLayer {
   explicit OccupancyGridLayer(std::string_view topic);
   /// "cells", of them "unknown", "occupied" (65 and more), "invalid" (outside -1..100); "updates" that went in.
   [[nodiscard]] scenegraph::LayerCounts counts() const override;
+  [[nodiscard]] std::optional<scenegraph::ColorLegend> legend() const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
   std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;

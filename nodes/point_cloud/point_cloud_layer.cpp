@@ -2,6 +2,7 @@
 
 #include "nodes/osg_math.h"
 #include "nodes/point_cloud/describe_point.h"
+#include "nodes/points/value_histogram.h"
 #include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
@@ -75,6 +76,7 @@ osg::BoundingBoxd PointCloudLayer::bulk() const {
 
 void PointCloudLayer::show() {
   choice_ = {};
+  range_.reset();
   geometry_->removePrimitiveSet(0, geometry_->getNumPrimitiveSets());
   geometry_->setColorArray(nullptr);
   geometry_->setVertexAttribArray(CloudState::kValueAttribute, nullptr);
@@ -101,12 +103,14 @@ void PointCloudLayer::draw(const Placement& fixed_from_points) {
   // What the mode does not use is set all the same: the state must not tell where it came from.
   RangeMap value_map;
   glm::dvec4 axis_map{0.0};
+  range_.reset();
   if (choice_.mode == ColorMode::Value) {
-    const ValueRange range = channelRange(chosen(), choice_.channel, *reference(), *product());
-    value_map = chosen().map(range, product()->channel(choice_.channel)->limits.offset);
+    range_ = channelRange(chosen(), choice_.channel, *reference(), *product());
+    value_map = chosen().map(*range_, product()->channel(choice_.channel)->limits.offset);
   } else if (choice_.mode == ColorMode::Axis && fixed_from_points) {
-    const ValueRange range = axisRange(chosen(), choice_.axis, *product(), *fixed_from_points);
-    axis_map = axisMap(chosen(), range, choice_.axis, *fixed_from_points, product()->converted().origin);
+    range_ = axisRange(chosen(), choice_.axis, *product(), *fixed_from_points);
+    fixed_from_points_ = *fixed_from_points;
+    axis_map = axisMap(chosen(), *range_, choice_.axis, *fixed_from_points, product()->converted().origin);
   }
   state_.setMode(choice_.mode, value_map);
   state_.setAxisMap(axis_map);
@@ -136,6 +140,34 @@ Status PointCloudLayer::remark() const {
                 std::to_string(cloud.out_of_reach) + " farther than 1e15 m"};
   }
   return feedRemark();
+}
+
+std::optional<scenegraph::ColorLegend> PointCloudLayer::legend() const {
+  if (!range_ || product()->converted().points == 0) {
+    return std::nullopt;
+  }
+  return choice_.mode == ColorMode::Value
+             ? chosen().legend(choice_.channel, "", *range_)
+             : chosen().legend(axisTitle(choice_.axis, context().frames.fixedFrame()), "m", *range_);
+}
+
+std::function<scenegraph::ValueHistogram()> PointCloudLayer::histogramWork() const {
+  if (!legend()) {
+    return nullptr;
+  }
+  if (choice_.mode == ColorMode::Value) {
+    return [cloud = product(), channel = choice_.channel] {
+      const CloudChannel& values = *cloud->channel(channel);
+      return histogramOf({values.values->asVector().data(), values.values->size()}, values.limits.offset);
+    };
+  }
+  return [cloud = product(), axis = choice_.axis, fixed_from_points = fixed_from_points_] {
+    const osg::Vec3Array& positions = *cloud->positions();
+    const glm::dmat4 matrix = tf::toMatrix(fixed_from_points);
+    return histogramAlong({positions.front().ptr(), 3 * positions.size()},
+                          {matrix[0][axis], matrix[1][axis], matrix[2][axis]},
+                          tf::transformPoint(fixed_from_points, cloud->converted().origin)[axis]);
+  };
 }
 
 scenegraph::LayerCounts PointCloudLayer::counts() const {

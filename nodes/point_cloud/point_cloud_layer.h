@@ -38,6 +38,8 @@ class PointCloudLayer : public SampleLayer<CloudPoints, PointCloudSettings> {
   /// "points" with finite coordinates, "dropped" without or left out by the feed, "bytes" of the cloud's data.
   [[nodiscard]] scenegraph::LayerCounts counts() const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
+  [[nodiscard]] std::optional<scenegraph::ColorLegend> legend() const override;
+  [[nodiscard]] std::function<scenegraph::ValueHistogram()> histogramWork() const override;
 
  protected:
   void open(const scenegraph::LayerContext& context) override;
@@ -56,6 +58,8 @@ class PointCloudLayer : public SampleLayer<CloudPoints, PointCloudSettings> {
   void setColorArrays();
 
   ColorChoice choice_;
+  std::optional<ValueRange> range_;       // of the colours, where they are of values
+  tf::RigidTransform fixed_from_points_;  // that x, y, z are coloured by
   osg::ref_ptr<osg::Geometry> geometry_;
   CloudState state_;
 };

@@ -1,5 +1,7 @@
 #include "nodes/point_cloud/point_cloud_settings.h"
 
+#include "nodes/common_specs.h"
+
 namespace stillframe::nodes {
 
 const scenegraph::SettingsTable<PointCloudSettings>& pointCloudSettingsTable() {
@@ -35,20 +37,9 @@ const scenegraph::SettingsTable<PointCloudSettings>& pointCloudSettingsTable() {
                 .help = "Discs instead of squares.",
                 .kind = SettingKind::Bool},
                &S::round_points},
-              {{.key = "opacity",
-                .label = "Opacity",
-                .help = "1 hides what is behind.",
-                .kind = SettingKind::Double,
-                .minimum = 0,
-                .maximum = 1},
-               &S::opacity},
-              {{.key = "flat_color", .label = "Flat colour", .help = "Colour when flat.", .kind = SettingKind::Color},
-               &S::flat_color},
-              {{.key = "missing_color",
-                .label = "NaN colour",
-                .help = "Colour of points whose field is NaN.",
-                .kind = SettingKind::Color},
-               &S::missing_color}});
+              {opacitySpec(), &S::opacity},
+              {flatColorSpec(), &S::flat_color},
+              {missingColorSpec("Colour of points whose field is NaN."), &S::missing_color}});
   return kTable;
 }
 

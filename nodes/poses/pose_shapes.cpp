@@ -62,6 +62,7 @@ void PoseShapes::clear() {
   if (line_) {
     parent_.removeChild(line_place_);
     line_.reset();
+  line_range_.reset();
     line_place_ = nullptr;
   }
   parent_.removeChild(label_);
@@ -207,13 +208,13 @@ void PoseShapes::buildLine(const PoseSet& poses, const PosesSettings& settings) 
   line_->setColor(settings.color);
   line_->setOpacity(settings.opacity);
   if (line.arrays.values.valid()) {
-    const ValueRange range =
+    line_range_ =
         settings.range([&] { return line.limits; },
                        [&](double low, double high) {
                          const osg::FloatArray& values = *line.arrays.values;
                          return percentileRange({values.asVector().data(), values.size()}, line.offset, low, high);
                        });
-    line_->setValueColors(settings.colormap, settings.map(range, line.offset), settings.missing_color);
+    line_->setValueColors(settings.colormap, settings.map(*line_range_, line.offset), settings.missing_color);
   }
   line_place_ = new osg::MatrixTransform(osg::Matrixd::translate(toOsg(poses.origin())));
   line_place_->setName("line");

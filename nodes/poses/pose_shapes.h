@@ -59,6 +59,8 @@ class PoseShapes {
   [[nodiscard]] std::size_t stride() const noexcept { return stride_; }
   /// Whether a polygon should have been filled and could not be.
   [[nodiscard]] bool isFillRefused() const noexcept { return is_fill_refused_; }
+  /// Of the line's colours; nullopt when there is no line, or one of one colour.
+  [[nodiscard]] const std::optional<ValueRange>& lineRange() const noexcept { return line_range_; }
   [[nodiscard]] const CovarianceReport& covariance() const noexcept { return covariance_; }
 
  private:
@@ -77,6 +79,7 @@ class PoseShapes {
   osg::MatrixTransform& parent_;
   std::vector<std::unique_ptr<InstancedMesh>> meshes_;
   std::optional<LineDrawable> line_;
+  std::optional<ValueRange> line_range_;
   osg::ref_ptr<osg::MatrixTransform> line_place_;
   TextMaker texts_;
   osg::ref_ptr<osg::MatrixTransform> label_;

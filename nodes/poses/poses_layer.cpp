@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "nodes/points/value_histogram.h"
 #include "scenegraph/store/tf_clock.h"
 
 namespace stillframe::nodes {
@@ -193,6 +194,25 @@ const Status& PosesLayer::sourceStatus() const {
   return trail_status_.level != StatusLevel::Ok && SampleLayer::sourceStatus().level == StatusLevel::Ok
              ? trail_status_
              : SampleLayer::sourceStatus();
+}
+
+std::optional<scenegraph::ColorLegend> PosesLayer::legend() const {
+  const std::optional<ValueRange> range = shapes_ ? shapes_->lineRange() : std::nullopt;
+  if (!range) {
+    return std::nullopt;
+  }
+  const std::string& by = chosen().color_field;
+  return chosen().legend(by, by == "time" ? "s" : by == "order" ? "" : "m", *range);
+}
+
+std::function<scenegraph::ValueHistogram()> PosesLayer::histogramWork() const {
+  if (!legend() || product() == nullptr) {
+    return nullptr;
+  }
+  return [shown = product(), by = poseValueOf(chosen().color_field)] {
+    const PoseSet::Line& line = (shown->trail != nullptr ? shown->trail->poses : *shown->poses).line(by);
+    return histogramOf({line.arrays.values->asVector().data(), line.arrays.values->size()}, line.offset);
+  };
 }
 
 bool PosesLayer::isWorking() const { return SampleLayer::isWorking() || trails_->isPending(); }

@@ -37,6 +37,8 @@ class PosesLayer final : public SampleLayer<ShownPoses, PosesSettings> {
   /// "poses" of the message, "shapes" and line "segments" drawn, "trail" poses, and "dropped" ones that cannot be
   /// drawn.
   [[nodiscard]] scenegraph::LayerCounts counts() const override;
+  [[nodiscard]] std::optional<scenegraph::ColorLegend> legend() const override;
+  [[nodiscard]] std::function<scenegraph::ValueHistogram()> histogramWork() const override;
 
  private:
   void open(const scenegraph::LayerContext& context) override;

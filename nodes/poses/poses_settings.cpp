@@ -1,5 +1,7 @@
 #include "nodes/poses/poses_settings.h"
 
+#include "nodes/common_specs.h"
+
 namespace stillframe::nodes {
 namespace {
 
@@ -39,13 +41,7 @@ Table shapeRows() {
             .minimum = 1e-6,
             .maximum = 1e6},
            &S::radius_m},
-          {{.key = "opacity",
-            .label = "Opacity",
-            .help = "Of shapes and lines; 1 hides what is behind.",
-            .kind = SettingKind::Double,
-            .minimum = 0,
-            .maximum = 1},
-           &S::opacity},
+          {opacitySpec("Of shapes and lines; 1 hides what is behind."), &S::opacity},
           {{.key = "max_shapes",
             .label = "Most shapes",
             .help = "Of more poses than these only every so many has a shape; lines go through all.",
@@ -94,11 +90,7 @@ Table lineRows() {
             .help = "Colour of flat lines, of spheres and of polygons.",
             .kind = SettingKind::Color},
            &S::color},
-          {{.key = "missing_color",
-            .label = "NaN colour",
-            .help = "Colour of segments whose value is missing.",
-            .kind = SettingKind::Color},
-           &S::missing_color},
+          {missingColorSpec("Colour of segments whose value is missing."), &S::missing_color},
           {{.key = "fill", .label = "Filled", .help = "Fills polygons.", .kind = SettingKind::Bool}, &S::fill},
           {{.key = "fill_opacity",
             .label = "Fill opacity",

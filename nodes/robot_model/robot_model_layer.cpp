@@ -275,6 +275,14 @@ void RobotModelLayer::hang(LinkNode& link, const std::optional<std::string>& anc
   }
 }
 
+void RobotModelLayer::collectNodes(std::vector<osg::Node*>& nodes) const {
+  for (const LinkNode& link : nodes_) {
+    if (link.anchor) {
+      nodes.push_back(link.node);
+    }
+  }
+}
+
 std::string RobotModelLayer::faultText() const {
   const auto& faults = scene_->faults();
   std::string text = std::to_string(faults.size()) + " of its shapes are boxes in place of meshes: ";

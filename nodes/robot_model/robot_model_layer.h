@@ -47,6 +47,7 @@ class RobotModelLayer final : public scenegraph::Layer {
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const override { return bounds_; }
   /// A link, where its surface is hit.
   [[nodiscard]] std::optional<scenegraph::Picked> describe(const scenegraph::PickHit& hit) const override;
+  void collectNodes(std::vector<osg::Node*>& nodes) const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
   std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;

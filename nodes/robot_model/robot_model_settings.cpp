@@ -3,6 +3,8 @@
 #include <string_view>
 #include <utility>
 
+#include "nodes/common_specs.h"
+
 namespace stillframe::nodes {
 namespace {
 
@@ -17,23 +19,29 @@ std::string keyOf(const std::string& link, std::string_view what) {
   return std::string(kPrefix) + link + std::string(what);
 }
 SettingSpec visibleSpec(const std::string& link) {
-  return {
-      .key = keyOf(link, kVisible), .label = link, .help = "Whether this link is drawn.", .kind = SettingKind::Bool};
+  return {.key = keyOf(link, kVisible),
+          .label = link,
+          .help = "Whether this link is drawn.",
+          .kind = SettingKind::Bool,
+          .group = "Links",
+          .item = link};
 }
-SettingSpec opacitySpec(const std::string& link) {
+SettingSpec linkOpacitySpec(const std::string& link) {
   return {.key = keyOf(link, kOpacity),
           .label = link + ": opacity",
           .help = "1 hides what is behind this link.",
           .kind = SettingKind::Double,
           .minimum = 0,
-          .maximum = 1};
+          .maximum = 1,
+          .group = "Links",
+          .item = link};
 }
 
 }  // namespace
 
 void addLinkSpecs(const std::string& link, std::vector<SettingSpec>& specs) {
   specs.push_back(visibleSpec(link));
-  specs.push_back(opacitySpec(link));
+  specs.push_back(linkOpacitySpec(link));
 }
 
 void addLinkTexts(const std::string& link, const RobotLinkSettings& settings, scenegraph::SettingTexts& texts) {
@@ -54,7 +62,7 @@ std::expected<void, scenegraph::SettingError> takeLinkTexts(scenegraph::SettingT
       continue;
     }
     const std::string link = key.substr(kPrefix.size(), key.size() - around);
-    const auto value = scenegraph::parseSetting(is_visible ? visibleSpec(link) : opacitySpec(link), text);
+    const auto value = scenegraph::parseSetting(is_visible ? visibleSpec(link) : linkOpacitySpec(link), text);
     if (!value) {
       return std::unexpected(value.error());
     }
@@ -80,13 +88,7 @@ const scenegraph::SettingsTable<RobotModelSettings>& robotModelSettingsTable() {
         .help = "The shapes that planners avoid collisions by.",
         .kind = SettingKind::Bool},
        &S::collision},
-      {{.key = "opacity",
-        .label = "Opacity",
-        .help = "1 hides what is behind.",
-        .kind = SettingKind::Double,
-        .minimum = 0,
-        .maximum = 1},
-       &S::opacity},
+      {opacitySpec(), &S::opacity},
       {{.key = "joints",
         .label = "Joints",
         .help =

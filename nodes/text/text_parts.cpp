@@ -1,30 +1,13 @@
 #include "nodes/text/text_parts.h"
 
-#include <filesystem>
 #include <osg/BlendFunc>
 #include <osg/Group>
 
 #include "generated/stillframe_nodes/shaders.h"
+#include "nodes/text/find_font.h"
 #include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
-namespace {
-
-osg::ref_ptr<osgText::Font> findFont() {
-  for (const char* path : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                           "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-                           "/usr/share/fonts/truetype/liberation2/LiberationSans-Regular.ttf"}) {
-    std::error_code ignored;
-    if (std::filesystem::exists(path, ignored)) {
-      if (osg::ref_ptr<osgText::Font> font = osgText::readRefFontFile(path)) {
-        return font;
-      }
-    }
-  }
-  return nullptr;
-}
-
-}  // namespace
 
 void TextParts::look() {
   if (state_ != nullptr) {

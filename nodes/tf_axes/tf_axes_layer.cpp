@@ -366,6 +366,12 @@ std::string TfAxesLayer::leftOutText() const {
          " frames are drawn: set frame_filter to see others, or raise max_frames";
 }
 
+void TfAxesLayer::collectNodes(std::vector<osg::Node*>& nodes) const {
+  for (const Shown& shown : shown_) {
+    nodes.push_back(shown.group);
+  }
+}
+
 scenegraph::LayerCounts TfAxesLayer::counts() const {
   scenegraph::LayerCounts counts{{"frames", shown_.size()}, {"unresolved", shown_.size() - resolved_}};
   if (const auto stale = std::ranges::count_if(shown_, &Shown::is_stale); stale > 0) {

@@ -64,6 +64,7 @@ class TfAxesLayer final : public scenegraph::Layer {
   [[nodiscard]] std::vector<scenegraph::Box> bulkInFixed() const override;
   /// A frame, by its axes, its name or the line to its parent.
   [[nodiscard]] std::optional<scenegraph::Picked> describe(const scenegraph::PickHit& hit) const override;
+  void collectNodes(std::vector<osg::Node*>& nodes) const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
   /// Refuses a frame_filter that is no regular expression.

@@ -4,6 +4,7 @@
 
 #include "nodes/osg_math.h"
 #include "nodes/points/record_fields.h"
+#include "nodes/points/value_histogram.h"
 
 namespace stillframe::nodes {
 
@@ -92,6 +93,7 @@ VoxelTest VoxelGridLayer::testOf(const VoxelGridSettings& settings, const VoxelF
 
 void VoxelGridLayer::show() {
   choice_.reset();
+  range_.reset();
   reapply();
   listed_ = 0;
   needed_texels_ = 0;
@@ -184,10 +186,13 @@ void VoxelGridLayer::draw(const Placement& fixed_from_grid) {
   }
   RangeMap value_map;
   glm::dvec4 axis_map{0.0};
+  range_.reset();
   if (const VoxelField* const field = block.field(choice_->color)) {
-    value_map = chosen().map(fieldRange(*field), field->limits.offset);
+    range_ = fieldRange(*field);
+    value_map = chosen().map(*range_, field->limits.offset);
   } else if (choice_->mode == VoxelColorMode::Axis && fixed_from_grid) {
-    axis_map = axisMap(chosen(), axisRange(*fixed_from_grid), choice_->axis, *fixed_from_grid);
+    range_ = axisRange(*fixed_from_grid);
+    axis_map = axisMap(chosen(), *range_, choice_->axis, *fixed_from_grid);
   }
   state_.setColor(choice_->mode, value_map);
   state_.setAxisMap(axis_map);
@@ -224,6 +229,31 @@ std::optional<scenegraph::Picked> VoxelGridLayer::describeData(const scenegraph:
   const std::size_t offset = slice * grid.slice_stride + row * grid.row_stride + column * grid.cell_stride;
   addRecordFields(picked, block.cells().records.fields, recordAt(grid.data.bytes, offset, grid.cell_stride), false);
   return picked;
+}
+
+std::optional<scenegraph::ColorLegend> VoxelGridLayer::legend() const {
+  if (!range_ || listed_ == 0) {
+    return std::nullopt;
+  }
+  return choice_->mode == VoxelColorMode::Axis
+             ? chosen().legend(axisTitle(choice_->axis, context().frames.fixedFrame()), "m", *range_)
+             : chosen().legend(choice_->color, "", *range_);
+}
+
+std::function<scenegraph::ValueHistogram()> VoxelGridLayer::histogramWork() const {
+  if (!legend() || choice_->mode == VoxelColorMode::Axis) {
+    return nullptr;
+  }
+  return [block = product(), name = choice_->color] {
+    const VoxelField& field = *block->field(name);
+    const std::span<const std::uint32_t> words = field.values.span();
+    std::vector<float> values(block->voxels());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = static_cast<float>(voxelValue(rawVoxel(words, field.format, i), field.format, field.limits) -
+                                     field.limits.offset);
+    }
+    return histogramOf(values, field.limits.offset);
+  };
 }
 
 Status VoxelGridLayer::remark() const {

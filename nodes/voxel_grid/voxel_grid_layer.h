@@ -32,6 +32,8 @@ class VoxelGridLayer final : public SampleLayer<VoxelBlock, VoxelGridSettings> {
   /// message's data.
   [[nodiscard]] scenegraph::LayerCounts counts() const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
+  [[nodiscard]] std::optional<scenegraph::ColorLegend> legend() const override;
+  [[nodiscard]] std::function<scenegraph::ValueHistogram()> histogramWork() const override;
 
  private:
   /// What the settings mean for one grid; empty names where there is none.
@@ -60,6 +62,7 @@ class VoxelGridLayer final : public SampleLayer<VoxelBlock, VoxelGridSettings> {
   [[nodiscard]] ValueRange axisRange(const tf::RigidTransform& fixed_from_grid) const;
 
   std::optional<Choice> choice_;
+  std::optional<ValueRange> range_;  // of the colours, where they are of values
   VoxelTest test_;
   std::size_t listed_ = 0;
   std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;

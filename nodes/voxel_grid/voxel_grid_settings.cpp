@@ -1,5 +1,7 @@
 #include "nodes/voxel_grid/voxel_grid_settings.h"
 
+#include "nodes/common_specs.h"
+
 namespace stillframe::nodes {
 
 const scenegraph::SettingsTable<VoxelGridSettings>& voxelGridSettingsTable() {
@@ -44,20 +46,9 @@ const scenegraph::SettingsTable<VoxelGridSettings>& voxelGridSettingsTable() {
           .with(scenegraph::SettingsTable<S>{
               {{.key = "shading", .label = "Shaded", .help = "Light on the faces.", .kind = SettingKind::Bool},
                &S::shading},
-              {{.key = "opacity",
-                .label = "Opacity",
-                .help = "1 hides what is behind.",
-                .kind = SettingKind::Double,
-                .minimum = 0,
-                .maximum = 1},
-               &S::opacity},
-              {{.key = "flat_color", .label = "Flat colour", .help = "Colour when flat.", .kind = SettingKind::Color},
-               &S::flat_color},
-              {{.key = "missing_color",
-                .label = "NaN colour",
-                .help = "Colour of voxels whose colour field is NaN.",
-                .kind = SettingKind::Color},
-               &S::missing_color}});
+              {opacitySpec(), &S::opacity},
+              {flatColorSpec(), &S::flat_color},
+              {missingColorSpec("Colour of voxels whose colour field is NaN."), &S::missing_color}});
   return kTable;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "scenegraph/layer_cost.h"
 #include "tools/cli/recording_options.h"
 
 namespace stillframe::cli {
@@ -15,6 +16,11 @@ Json layersJson(const scenegraph::Scene& scene) {
     for (const auto& [name, count] : layer.counts()) {
       counts[name] = count;
     }
+    Json legend = nullptr;
+    if (const auto colors = layer.isVisible() ? layer.legend() : std::nullopt) {
+      legend = {{"title", colors->title}, {"unit", colors->unit}, {"low", colors->low}, {"high", colors->high}};
+    }
+    const scenegraph::LayerCost cost = scenegraph::layerCost(*slot);
     layers.push_back(
         {{"id", slot->id},
          {"title", slot->title},
@@ -24,7 +30,12 @@ Json layersJson(const scenegraph::Scene& scene) {
          {"visible", layer.isVisible()},
          {"status",
           {{"level", scenegraph::toString(status.level)}, {"code", status.code}, {"message", status.message}}},
-         {"counts", std::move(counts)}});
+         {"counts", std::move(counts)},
+         {"legend", std::move(legend)},
+         {"cost",
+          {{"vertices", cost.vertices},
+           {"draw_calls", cost.draw_calls},
+           {"decode_ms", cost.decode_ms ? Json(*cost.decode_ms) : Json(nullptr)}}}});
   }
   return layers;
 }

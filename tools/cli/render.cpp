@@ -15,6 +15,7 @@
 #include "tools/cli/effect_arguments.h"
 #include "tools/cli/layer_ids.h"
 #include "tools/cli/layer_report.h"
+#include "tools/cli/picture_legend.h"
 #include "tools/cli/picture_sequence.h"
 #include "tools/cli/scene_session.h"
 
@@ -30,6 +31,7 @@ struct RenderCommandOptions {
   std::string times;
   std::string turntable;
   bool is_json = false;
+  bool has_legend = false;
 };
 
 struct Channels {
@@ -88,6 +90,7 @@ struct Run {
   scenegraph::ViewEffects effects;
   Channels channels;
   bool is_exr = false;
+  bool has_legend = false;
 };
 
 volatile std::sig_atomic_t is_interrupted = 0;
@@ -166,6 +169,9 @@ Result<scenegraph::FrameStatistics> takeShot(const Run& run, const Shot& shot, S
       return std::unexpected(fileError(shot.file, added.error()));
     }
   }
+  if (run.has_legend) {
+    addLegends(session.scene(), *picture);
+  }
   const auto written =
       run.is_exr ? scenegraph::writeExr(*picture, shot.file) : scenegraph::writePng(*picture, shot.file);
   if (!written) {
@@ -196,6 +202,9 @@ Result<Run> prepare(const RenderCommandOptions& options) {
   if (out.extension() != ".png" && out.extension() != ".exr") {
     return usageError(options.out + ": the name of a picture ends in .png or .exr");
   }
+  if (options.has_legend && out.extension() == ".exr") {
+    return usageError("--legend: a legend is drawn into a .png; an .exr holds the scene alone");
+  }
   auto view = options.view.view();
   if (!view) {
     return std::unexpected(view.error());
@@ -216,7 +225,7 @@ Result<Run> prepare(const RenderCommandOptions& options) {
   if (!channels) {
     return std::unexpected(channels.error());
   }
-  return Run{.view = std::move(*view), .effects = std::move(*effects), .channels = *channels, .is_exr = is_exr};
+  return Run{.view = std::move(*view), .effects = std::move(*effects), .channels = *channels, .is_exr = is_exr, .has_legend = options.has_legend};
 }
 
 Result<void> runRender(const RenderCommandOptions& options) {
@@ -302,6 +311,7 @@ Command addRenderCommand(CLI::App& app) {
          "--channels", options->channels,
          "normals,id: of an .exr, besides R, G, B, A and Z: N.X, N.Y, N.Z in the fixed frame; the layer's number")
       ->type_name("NAMES");
+  app.add_flag("--legend", options->has_legend, "What the colours of values mean, in the picture's corner (.png)");
   app.add_flag("--json", options->is_json, "One JSON object on what was drawn; of several pictures, on each of them");
   return [options] { return runRender(*options); };
 }

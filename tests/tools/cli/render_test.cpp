@@ -91,6 +91,51 @@ TEST(RenderCommand, DrawsASecondLayerOfATopicByItsNumber) {
   EXPECT_EQ(layers[1]["counts"], layers[0]["counts"]);
 }
 
+TEST(RenderCommand, DrawsALegendWhereValuesHaveColours) {
+  const TestFolder folder;
+  const std::string sample = folder.makeSample();
+  const auto corner = [&](const std::string& layer, bool has_legend) {
+    std::vector<std::string> arguments{"render",  sample, "--out",  "a.png",  "--only",
+                                       "--layer", layer,  "--size", "640x400"};
+    if (has_legend) {
+      arguments.emplace_back("--legend");
+    }
+    const Outcome drawn = run(folder.path(), arguments);
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    const auto picture = scenegraph::readPng(folder / "a.png");
+    EXPECT_TRUE(picture);
+    // The last card of 216 x 62 and its margin lie within this.
+    std::vector<std::uint8_t> pixels;
+    for (int y = 320; picture && y < 400; ++y) {
+      const auto row = picture->rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * 640 + 440);
+      pixels.insert(pixels.end(), row, row + 3 * 200);
+    }
+    return pixels;
+  };
+  const auto with = corner("/lidar/points:color_field=z", true);
+  EXPECT_NE(with, corner("/lidar/points:color_field=z", false));
+  EXPECT_EQ(corner("/lidar/points:color_field=flat", true), corner("/lidar/points:color_field=flat", false));
+  EXPECT_EQ(run(folder.path(), {"render", sample, "--out", "a.exr", "--legend"}).code, 2);
+}
+
+TEST(RenderCommand, SaysWhatColoursMeanAndWhatLayersCost) {
+  const TestFolder folder;
+  const Outcome drawn =
+      run(folder.path(), {"render", folder.makeSample(), "--out", "a.png", "--size", "64x64", "--layer",
+                          "/lidar/points:color_field=z,range_mode=manual,range_min=-1,range_max=2", "--json"});
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  const auto layers = byTopic(drawn.json());
+  const auto& legend = layers.at("/lidar/points")["legend"];
+  EXPECT_EQ(legend["title"], "z in map");
+  EXPECT_EQ(legend["unit"], "m");
+  EXPECT_EQ(legend["low"], -1.0);
+  EXPECT_EQ(legend["high"], 2.0);
+  EXPECT_TRUE(layers.at("grid")["legend"].is_null());
+  EXPECT_EQ(layers.at("/lidar/points")["cost"]["vertices"], kSamplePoints);
+  EXPECT_EQ(layers.at("/lidar/points")["cost"]["draw_calls"], 1);
+  EXPECT_GT(layers.at("/lidar/points")["cost"]["decode_ms"].get<double>(), 0.0);
+}
+
 TEST(RenderCommand, HidesALayerThatIsToBeHidden) {
   const TestFolder folder;
   const Outcome drawn = run(folder.path(), {"render", folder.makeSample(), "--out", "a.png", "--layer",

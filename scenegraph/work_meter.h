@@ -1,0 +1,28 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "scenegraph/executor.h"
+
+namespace stillframe::scenegraph {
+
+/// An executor that hands a layer's work on to another, and remembers how long it took. Any thread.
+class WorkMeter final : public Executor {
+ public:
+  /// `inner` outlives this and its work.
+  explicit WorkMeter(Executor& inner) : inner_(inner), last_ns_(std::make_shared<std::atomic<std::int64_t>>(-1)) {}
+
+  void submit(std::function<void()> job) override;
+  void drain() override { inner_.drain(); }
+  /// Of the job that ended last; nullopt before the first has.
+  [[nodiscard]] std::optional<double> lastMs() const;
+
+ private:
+  Executor& inner_;
+  std::shared_ptr<std::atomic<std::int64_t>> last_ns_;  // shared with jobs, which may outlive the layer
+};
+
+}  // namespace stillframe::scenegraph

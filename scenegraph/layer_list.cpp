@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -22,6 +23,17 @@ SettingTexts applySettings(const LayerState& state, Layer& layer, std::vector<St
     }
   }
   return left;
+}
+
+const LayerState* find(const LayerList& list, const std::string& id) {
+  const auto found = std::ranges::find(list.layers, id, &LayerState::id);
+  return found == list.layers.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> idsOf(const LayerList& list) {
+  std::vector<std::string> ids;
+  std::ranges::transform(list.layers, std::back_inserter(ids), &LayerState::id);
+  return ids;
 }
 
 }  // namespace
@@ -65,15 +77,48 @@ AppliedLayers applyLayers(std::span<const LayerState> layers, Scene& scene) {
   return applied;
 }
 
-AppliedLayers applyLayerList(const LayerList& list, Scene& scene) {
+namespace {
+
+/// Takes away, adds and sets, but does not arrange.
+AppliedLayers applyStates(const LayerList& list, Scene& scene) {
   for (const std::string& topic : list.removed_topics) {
     scene.removeLayer(topic);
   }
   scene.setRemovedTopics(list.removed_topics);
-  AppliedLayers applied = applyLayers(list.layers, scene);
-  std::vector<std::string> order;
-  std::ranges::transform(list.layers, std::back_inserter(order), &LayerState::id);
-  scene.arrangeLayers(order);
+  return applyLayers(list.layers, scene);
+}
+
+}  // namespace
+
+AppliedLayers applyLayerList(const LayerList& list, Scene& scene) {
+  AppliedLayers applied = applyStates(list, scene);
+  scene.arrangeLayers(idsOf(list));
+  return applied;
+}
+
+AppliedLayers changeLayerList(const LayerList& from, const LayerList& to, Scene& scene) {
+  for (const LayerState& state : from.layers) {
+    if (find(to, state.id) == nullptr) {
+      scene.removeLayer(state.id);
+    }
+  }
+  LayerList changed{{}, to.removed_topics};
+  for (const LayerState& state : to.layers) {
+    const LayerState* const before = find(from, state.id);
+    if (before == nullptr) {
+      changed.layers.push_back(state);
+    } else if (*before != state) {
+      LayerState& change = changed.layers.emplace_back(state);
+      std::erase_if(change.settings, [&](const auto& setting) {
+        const auto old = before->settings.find(setting.first);
+        return old != before->settings.end() && old->second == setting.second;
+      });
+    }
+  }
+  AppliedLayers applied = applyStates(changed, scene);
+  if (const std::vector<std::string> order = idsOf(to); order != idsOf(from)) {
+    scene.arrangeLayers(order);
+  }
   return applied;
 }
 

@@ -29,6 +29,10 @@ struct AppliedLayers {
 /// are, behind the others.
 [[nodiscard]] AppliedLayers applyLayerList(const LayerList& list, Scene& scene);
 
+/// Brings the layers of `scene` from `from` to `to`, touching only what differs between these two: what else has
+/// changed in the scene meanwhile stays. Returns what applyLayerList() does.
+[[nodiscard]] AppliedLayers changeLayerList(const LayerList& from, const LayerList& to, Scene& scene);
+
 /// Settings of a layer, with "visible" and "title" among them, which all layers have. On error nothing is changed.
 std::expected<void, SettingError> applyLayerSettings(SettingTexts settings, LayerSlot& slot);
 

@@ -1,21 +1,18 @@
 #pragma once
 
-#include <QTreeWidget>
-#include <map>
-#include <string>
-#include <vector>
+#include <QWidget>
 
 #include "scenegraph/scene.h"
 
+class QToolButton;
+
 namespace stillframe::viewer {
 
-class SettingEditor;
+class AddLayerMenu;
+class LayerTree;
 
-/// The layers of one view: a row each with a check box, its status as icon and text, and its settings beneath.
-///
-/// Everything is built from the Layer interface; no type of layer is known here. GUI thread. refresh() compares before
-/// it writes, so that it may be called on every tick.
-class LayerPanel : public QTreeWidget {
+/// The layers of one view: the tree of them, and above it what adds, duplicates, removes and moves. GUI thread.
+class LayerPanel : public QWidget {
   Q_OBJECT
 
  public:
@@ -23,33 +20,31 @@ class LayerPanel : public QTreeWidget {
 
   /// Shows the layers of `scene` from now on; nullptr empties the panel. The scene must outlive this or the next call.
   void setScene(scenegraph::Scene* scene);
-  /// Takes over new layers, statuses, counts, choices and values.
+  /// Takes over what has changed in the scene; cheap when nothing has.
   void refresh();
 
+  [[nodiscard]] LayerTree& tree() noexcept { return *tree_; }
+  [[nodiscard]] AddLayerMenu& addMenu() noexcept { return *add_menu_; }
+
  Q_SIGNALS:
-  /// The user has switched or set something; the scene needs an update.
-  void changed();
-  /// A setting was refused: one sentence.
+  /// See LayerTree.
+  void changed(const QString& what, const QString& gesture);
   void refused(const QString& message);
+  /// Somebody wants to know what each layer takes to draw: LayerTree::setDrawTimes().
+  void measureRequested();
 
  private:
-  struct Row {
-    scenegraph::Layer* layer = nullptr;
-    QTreeWidgetItem* item = nullptr;
-    std::vector<scenegraph::SettingSpec> specs;
-    std::map<std::string, SettingEditor*> editors;
-  };
-  Row addRow(const scenegraph::LayerSlot& slot);
-  void showStatus(const Row& row) const;
-  void buildEditors(Row& row);
-  void onItemChanged(QTreeWidgetItem* item);
+  QToolButton* addButton(const char* name, const QString& text, const QString& tip);
+  void enableButtons();
 
   scenegraph::Scene* scene_ = nullptr;
-  std::vector<Row> rows_;
+  QWidget* bar_ = nullptr;
+  LayerTree* tree_ = nullptr;
+  AddLayerMenu* add_menu_ = nullptr;
+  QToolButton* duplicate_ = nullptr;
+  QToolButton* remove_ = nullptr;
+  QToolButton* up_ = nullptr;
+  QToolButton* down_ = nullptr;
 };
-
-/// What a row says beside its name: why nothing is drawn, else how much is and the code of a note ("39,712 points,
-/// PointsDropped"); the tool tip has the sentence.
-[[nodiscard]] QString statusLine(const scenegraph::Layer& layer);
 
 }  // namespace stillframe::viewer

@@ -1,10 +1,12 @@
 #include "viewer/layers/setting_editor.h"
 
+#include <QAbstractSpinBox>
 #include <QCheckBox>
 #include <QColorDialog>
 #include <QComboBox>
-#include <QDoubleSpinBox>
+#include <QCompleter>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -16,6 +18,8 @@
 #include <limits>
 #include <variant>
 
+#include "viewer/layers/number_box.h"
+
 namespace stillframe::viewer {
 namespace {
 
@@ -24,6 +28,7 @@ using scenegraph::SettingSpec;
 
 constexpr int kSliderSteps = 1000;
 constexpr double kLongestSliderRange = 100.0;
+constexpr std::size_t kFewChoices = 7;
 constexpr double kLowestInt = std::numeric_limits<int>::min();
 constexpr double kHighestInt = std::numeric_limits<int>::max();
 
@@ -36,16 +41,44 @@ T valueOr(const SettingSpec& spec, const std::string& text, T fallback) {
   return typed == nullptr ? fallback : *typed;
 }
 
-/// Shows 2 as "2", not as "2.0000".
-class NumberBox : public QDoubleSpinBox {
- public:
-  using QDoubleSpinBox::QDoubleSpinBox;
-  [[nodiscard]] QString textFromValue(double value) const override { return locale().toString(value, 'g', 7); }
-};
+/// To four digits of the range: what a slider says is no more exact than its steps.
+double roundedTo(double value, double range) {
+  const double unit = std::pow(10.0, std::floor(std::log10(range)) - 3.0);
+  return QString::number(std::round(value / unit) * unit, 'g', 12).toDouble();
+}
 
 QColor toQColor(const scenegraph::Color& color) { return QColor::fromRgbF(color.r, color.g, color.b, color.a); }
 
 }  // namespace
+
+EditorFilter::EditorFilter(QWidget& editor) : QObject(&editor) {
+  for (QWidget* const part : editor.findChildren<QWidget*>()) {
+    if (part->focusPolicy() == Qt::WheelFocus) {
+      part->setFocusPolicy(Qt::StrongFocus);
+    }
+    part->installEventFilter(this);
+  }
+}
+
+bool EditorFilter::eventFilter(QObject* watched, QEvent* event) {
+  const auto* widget = qobject_cast<QWidget*>(watched);
+  if (event->type() == QEvent::Wheel && !widget->hasFocus()) {
+    event->ignore();
+    return true;
+  }
+  const auto* line = qobject_cast<QLineEdit*>(watched);
+  if (qobject_cast<QAbstractSpinBox*>(watched) != nullptr) {
+    line = watched->findChild<QLineEdit*>();  // which the box hands its events to by itself
+  }
+  if (event->type() == QEvent::ShortcutOverride && line != nullptr && !line->isModified()) {
+    auto* key = static_cast<QKeyEvent*>(event);
+    if (key->matches(QKeySequence::Undo) || key->matches(QKeySequence::Redo)) {
+      event->ignore();
+      return true;
+    }
+  }
+  return QObject::eventFilter(watched, event);
+}
 
 SettingEditor::SettingEditor(const SettingSpec& spec, const std::string& text, QWidget* parent)
     : QWidget(parent), spec_(spec), text_(text) {
@@ -72,6 +105,7 @@ SettingEditor::SettingEditor(const SettingSpec& spec, const std::string& text, Q
   layout->addWidget(editor, 1);
   setToolTip(QString::fromStdString(spec_.help));
   setFocusProxy(editor);
+  new EditorFilter(*this);
   show_(text_);
 }
 
@@ -84,6 +118,9 @@ void SettingEditor::setText(const std::string& text) {
 }
 
 void SettingEditor::emitEdited(const std::string& text) {
+  for (QLineEdit* const line : findChildren<QLineEdit*>()) {
+    line->setModified(false);
+  }
   if (text != text_) {
     text_ = text;
     Q_EMIT edited(QString::fromStdString(spec_.key), QString::fromStdString(text));
@@ -119,24 +156,18 @@ QWidget* SettingEditor::makeDouble() {
   auto* holder = new QWidget(this);
   auto* layout = new QHBoxLayout(holder);
   layout->setContentsMargins(0, 0, 0, 0);
-  auto* box = new NumberBox(holder);
-  box->setKeyboardTracking(false);
-  box->setDecimals(6);
-  box->setGroupSeparatorShown(false);
-  box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  const double lowest = isBounded(spec_) ? spec_.minimum : -1e12;
-  const double highest = isBounded(spec_) ? spec_.maximum : 1e12;
-  box->setRange(lowest, highest);
-  box->setMinimumWidth(70);
-  box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  const double lowest = isBounded(spec_) ? spec_.minimum : -kLargestNumber;
+  const double highest = isBounded(spec_) ? spec_.maximum : kLargestNumber;
+  auto* box = new NumberBox(lowest, highest, holder);
   QSlider* slider = nullptr;
   if (isBounded(spec_) && highest - lowest <= kLongestSliderRange) {
     slider = new QSlider(Qt::Horizontal, holder);
     slider->setRange(0, kSliderSteps);
     slider->setMinimumWidth(40);
     layout->addWidget(slider, 1);
-    connect(slider, &QSlider::valueChanged, box,
-            [=](int step) { box->setValue(lowest + (highest - lowest) * step / kSliderSteps); });
+    connect(slider, &QSlider::valueChanged, box, [=](int step) {
+      box->setValue(roundedTo(lowest + (highest - lowest) * step / kSliderSteps, highest - lowest));
+    });
   }
   layout->addWidget(box, 1);
   const auto move_slider = [=](double value) {
@@ -162,8 +193,15 @@ QWidget* SettingEditor::makeChoice() {
   for (const std::string& choice : spec_.choices) {
     box->addItem(QString::fromStdString(choice));
   }
-  box->setEditable(!spec_.choices_only);
+  // Of many choices one is found by typing a part of it.
+  box->setEditable(!spec_.choices_only || spec_.choices.size() > kFewChoices);
+  box->setInsertPolicy(QComboBox::NoInsert);
   box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  if (box->isEditable()) {
+    box->completer()->setCompletionMode(QCompleter::PopupCompletion);
+    box->completer()->setFilterMode(Qt::MatchContains);
+    box->completer()->setCaseSensitivity(Qt::CaseInsensitive);
+  }
   show_ = [box](const std::string& text) {
     const QSignalBlocker blocker(box);
     const QString wanted = QString::fromStdString(text);
@@ -175,8 +213,12 @@ QWidget* SettingEditor::makeChoice() {
   };
   connect(box, &QComboBox::textActivated, this, [this](const QString& text) { emitEdited(text.toStdString()); });
   if (box->isEditable()) {
-    connect(box->lineEdit(), &QLineEdit::editingFinished, this,
-            [this, box] { emitEdited(box->currentText().toStdString()); });
+    connect(box->lineEdit(), &QLineEdit::editingFinished, this, [this, box] {
+      if (spec_.choices_only && box->findText(box->currentText()) < 0) {
+        show_(text_);  // half a name is none
+      }
+      emitEdited(box->currentText().toStdString());
+    });
   }
   return box;
 }
@@ -218,7 +260,7 @@ QWidget* SettingEditor::makeColor() {
 bool isSameSpecs(const std::vector<SettingSpec>& a, const std::vector<SettingSpec>& b) {
   return std::ranges::equal(a, b, [](const SettingSpec& x, const SettingSpec& y) {
     return x.key == y.key && x.kind == y.kind && x.choices == y.choices && x.choices_only == y.choices_only &&
-           x.minimum == y.minimum && x.maximum == y.maximum;
+           x.minimum == y.minimum && x.maximum == y.maximum && x.group == y.group && x.item == y.item;
   });
 }
 

@@ -9,8 +9,20 @@
 
 namespace stillframe::viewer {
 
-/// A widget for one setting, built from its spec alone: check box, spin box (with a slider when the range is short),
-/// combo box, line edit or colour button. GUI thread.
+/// Keeps what is within an editor from two surprises: a wheel that scrolls the panel does not change what happens to
+/// pass beneath it, and where no text is half typed, undo is that of the view. Belongs to the editor. GUI thread.
+class EditorFilter : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit EditorFilter(QWidget& editor);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+};
+
+/// A widget for one setting, built from its spec alone: check box, number box (with a slider when the range is short),
+/// combo box (with search when the choices are many), line edit or colour button. GUI thread.
 class SettingEditor : public QWidget {
   Q_OBJECT
 

@@ -10,9 +10,12 @@
 #include "viewer/frames/frame_memory.h"
 #include "viewer/frames/frame_picker.h"
 #include "viewer/layers/layer_panel.h"
+#include "viewer/layers/layer_tree.h"
+#include "viewer/layers/legend_overlay.h"
 #include "viewer/view/camera_bar.h"
 #include "viewer/view/effect_panel.h"
 #include "viewer/view/view_grip.h"
+#include "viewer/view/view_history.h"
 #include "viewer/widget/scene_widget.h"
 #include "viewer/window/icons.h"
 
@@ -68,6 +71,7 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   effects_->setObjectName(QStringLiteral("effectPanel"));
   effects_->setVisible(false);
   view_ = new SceneWidget(splitter_);
+  legend_ = new LegendOverlay(*view_);
   camera_bar_ = new CameraBar(*view_, bar);
   place_of_camera_bar->addWidget(camera_bar_);
   splitter_->setStretchFactor(0, 0);
@@ -95,8 +99,12 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   connect(layers_, &LayerPanel::refused, this, &ViewPanel::refused);
   connect(view_, &SceneWidget::sceneUpdated, this, [this] {
     layers_->refresh();
+    legend_->refresh(view_->scene());
     refreshFrames();
   });
+  connect(layers_, &LayerPanel::measureRequested, this,
+          [this] { layers_->tree().setDrawTimes(view_->measureDrawTimes()); });
+  connectHistory();
 }
 
 ViewPanel::~ViewPanel() {
@@ -134,10 +142,12 @@ void ViewPanel::setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegr
   absent_.clear();
   addWantedLayers();
   layers_->setScene(view_->scene());
+  legend_->refresh(view_->scene());
   refreshFrames();
   if (is_waiting_for_scene_ && view_->scene() != nullptr) {
     restoreInto(*view_->scene());
   }
+  history_->clear();
 }
 
 void ViewPanel::addWantedLayers() {
@@ -230,6 +240,7 @@ void ViewPanel::setHiddenFrames(const FrameNames& hidden) {
   }
   layers_->refresh();
   view_->requestTick();
+  history_->note(tr("frames shown"));
 }
 
 }  // namespace stillframe::viewer

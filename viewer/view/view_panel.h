@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QWidget>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <set>
@@ -23,7 +24,10 @@ class EffectPanel;
 class FrameMemory;
 class FramePicker;
 class LayerPanel;
+class LegendOverlay;
 class SceneWidget;
+class ViewHistory;
+struct ViewSettings;
 
 /// A view: SceneWidget, tool bar and layer panel. Each has a Scene of its own: fixed frame, layers, settings, camera.
 /// GUI thread.
@@ -66,6 +70,9 @@ class ViewPanel : public QWidget {
   [[nodiscard]] CameraBar& cameraBar() noexcept { return *camera_bar_; }
   [[nodiscard]] LayerPanel& layerPanel() noexcept { return *layers_; }
   [[nodiscard]] EffectPanel& effectPanel() noexcept { return *effects_; }
+  /// Undo and redo of every setting of the view and its layers: Ctrl+Z and Ctrl+Shift+Z within it.
+  [[nodiscard]] ViewHistory& history() noexcept { return *history_; }
+  [[nodiscard]] LegendOverlay& legend() noexcept { return *legend_; }
 
  Q_SIGNALS:
   void splitRequested(Qt::Orientation orientation);
@@ -80,6 +87,9 @@ class ViewPanel : public QWidget {
   QToolButton* addButton(QWidget& bar, const QString& name, const QIcon& icon, const QString& tip);
   void addWantedLayers();
   void refreshFrames();
+  void connectHistory();
+  [[nodiscard]] ViewSettings settings() const;
+  void changeSettings(const ViewSettings& from, const ViewSettings& to);
   void pickFixedFrame(const std::optional<std::string>& frame);
   void restoreInto(scenegraph::Scene& scene);
   void applyWaitingLayers();
@@ -90,6 +100,9 @@ class ViewPanel : public QWidget {
   CameraBar* camera_bar_ = nullptr;
   LayerPanel* layers_ = nullptr;
   EffectPanel* effects_ = nullptr;
+  LegendOverlay* legend_ = nullptr;
+  ViewHistory* history_ = nullptr;
+  std::uint64_t adopted_revision_ = 0;
   QSplitter* splitter_ = nullptr;
   QToolButton* layers_button_ = nullptr;
   QToolButton* effects_button_ = nullptr;

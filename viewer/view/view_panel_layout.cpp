@@ -6,6 +6,7 @@
 #include "scenegraph/layer_list.h"
 #include "viewer/layers/layer_panel.h"
 #include "viewer/view/effect_panel.h"
+#include "viewer/view/view_history.h"
 #include "viewer/view/view_panel.h"
 #include "viewer/widget/scene_widget.h"
 
@@ -65,6 +66,7 @@ void ViewPanel::restore(const ViewLayout& layout) {
   if (!is_waiting_for_scene_) {
     restoreInto(*view_->scene());
   }
+  history_->clear();
 }
 
 void ViewPanel::restoreInto(scenegraph::Scene& scene) {

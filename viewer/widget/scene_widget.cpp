@@ -3,9 +3,11 @@
 #include <QLabel>
 #include <QOpenGLContext>
 #include <QResizeEvent>
+#include <limits>
 #include <utility>
 
 #include "nodes/registry.h"
+#include "scenegraph/pipeline/draw_times.h"
 #include "scenegraph/pipeline/gl_context_info.h"
 #include "viewer/pick/hover_label.h"
 #include "viewer/pick/view_picks.h"
@@ -186,6 +188,20 @@ void SceneWidget::paintGL() {
 void SceneWidget::setPointWay(scenegraph::PointWay way) {
   point_way_ = way;
   update();
+}
+
+std::vector<std::optional<double>> SceneWidget::measureDrawTimes() {
+  if (scene_ == nullptr || pipeline_ == nullptr || !is_context_usable_) {
+    return {};
+  }
+  makeCurrent();
+  const QSizeF size_px = QSizeF(size()) * devicePixelRatioF();
+  pipeline_->setPointLimits({});
+  auto times = scenegraph::measureDrawTimes(
+      *scene_, [&] { (void)pipeline_->renderLinear(qRound(size_px.width()), qRound(size_px.height())); });
+  doneCurrent();
+  update();
+  return times;
 }
 
 double SceneWidget::pointShare() const {

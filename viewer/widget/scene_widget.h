@@ -107,6 +107,9 @@ class SceneWidget : public QOpenGLWidget {
 
   /// Share of the points that the last frame has drawn; below 1 the view goes on by itself until all are.
   [[nodiscard]] double pointShare() const;
+  /// Milliseconds that each layer takes to draw by itself, in the scene's order; empty before the first frame. Draws
+  /// the scene some times over, and blocks as long.
+  [[nodiscard]] std::vector<std::optional<double>> measureDrawTimes();
   /// Frames drawn since the widget was made.
   [[nodiscard]] std::uint64_t framesDrawn() const noexcept { return frames_drawn_; }
   /// OpenGL debug messages so far, over all contexts.

@@ -24,9 +24,7 @@ constexpr double kNewest = 0.5;      // of the mean: soon right after a change, 
 PointStage::PointStage(unsigned threads) : PointStage(std::make_unique<CpuPoints>(threads)) {}
 
 PointStage::PointStage(std::unique_ptr<PointDrawer> drawer)
-    : drawer_(std::move(drawer)),
-      points_per_ms_(kFirstGuess),
-      triangle_(makeFullScreenTriangle(new osg::StateSet)) {
+    : drawer_(std::move(drawer)), points_per_ms_(kFirstGuess), triangle_(makeFullScreenTriangle(new osg::StateSet)) {
   triangle_->setNodeMask(0);
   osg::StateSet& state = *triangle_->getStateSet();
   state.setAttributeAndModes(makeProgram("points", glsl::k_full_screen_vert, glsl::k_points_frag));

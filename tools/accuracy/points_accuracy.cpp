@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <glm/gtc/type_ptr.hpp>
@@ -24,10 +23,6 @@ constexpr int kWidthPx = 1280;
 constexpr int kHeightPx = 720;
 constexpr int kRepeats = 5;
 constexpr std::array<std::uint32_t, 10> kPasses{1, 2, 5, 10, 20, 51, 102, 256, 512, kPassesOfSample};
-
-double milliseconds(std::chrono::steady_clock::duration duration) {
-  return std::chrono::duration<double, std::milli>(duration).count();
-}
 
 /// What an error is measured on: bytes as they are shown, and whether a pixel has points.
 struct Seen {

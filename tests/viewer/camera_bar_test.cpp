@@ -79,16 +79,16 @@ TEST_F(CameraBarTest, StateOfAViewRoundTripsExactly) {
   panel_.view().saveView("one");
   panel_.view().setFixedFrame("odom");
   settle();
-  const ViewState state = panel_.state();
+  const scenegraph::ViewLayout state = panel_.layout();
   ViewPanel other;
   other.resize(500, 400);
   other.setDataset(dataset_, *executor_, {});
   other.view().setTime(TimePoint{5_s});
-  other.setState(state);
+  other.restore(state);
   other.show();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&other));
   settle();
-  const ViewState restored = other.state();
+  const scenegraph::ViewLayout restored = other.layout();
   EXPECT_EQ(restored.viewpoint, state.viewpoint);
   EXPECT_EQ(restored.saved_views, state.saved_views);
   EXPECT_EQ(restored.fixed_frame, state.fixed_frame);
@@ -103,7 +103,7 @@ TEST_F(CameraBarTest, AnUntouchedViewIsRestoredUntouched) {
   ViewPanel other;
   other.resize(500, 400);
   other.setDataset(dataset_, *executor_, {});
-  other.setState(panel_.state());
+  other.restore(panel_.layout());
   EXPECT_FALSE(other.view().isCameraTouched());
   EXPECT_EQ(other.view().camera().rig().kind(), CameraKind::TopDownOrtho);
 }

@@ -98,7 +98,7 @@ Result<ViewCosts> measure(const RecordingOptions& options, std::size_t count) {
   const auto draw = [&] {
     for (BenchView& view : views) {
       scenegraph::CameraRig rig;
-      rig.change().frame(scenegraph::toBox(view.scene->bulkInFixed()), static_cast<double>(kWidth_px) / kHeight_px);
+      rig.change().frame(view.scene->bulkInFixed(), static_cast<double>(kWidth_px) / kHeight_px);
       (void)view.renderer->render(view.scene->root(), rig.view(), {kWidth_px, kHeight_px, {}});
     }
   };

@@ -298,7 +298,7 @@ TEST_F(Look, EffectsAskedForAtTheStartAreInEveryView) {
   open(std::move(options));
   for (ViewPanel* const panel : window_->views()) {
     EXPECT_EQ(panel->view().effects(), wanted);
-    EXPECT_EQ(panel->state().effects, wanted);
+    EXPECT_EQ(panel->layout().effects, wanted.toTexts());
   }
 }
 

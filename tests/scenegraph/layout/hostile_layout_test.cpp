@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
         HostileCase{"EmptySplitter", splitter("orientation=\"vertical\" sizes=\"\"", ""), "BadLayout"},
         HostileCase{"Empty", "", "MalformedLayout"}, HostileCase{"Nul", std::string(100, '\0'), "MalformedLayout"},
         HostileCase{"NoXml", "{\"layout\": 1}", "MalformedLayout"}, HostileCase{"AnotherProgram", "<rviz/>", "NoView"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& hostile) { return std::string(hostile.param.name); });
 
 TEST(LayoutTruncatedAnywhere, IsRefusedAndNeverCrashes) {
   const std::string text = writeXml(toXml(test::makeLayout()));

@@ -21,7 +21,7 @@ using scenegraph::kPassesOfSample;
 
 constexpr int kWidthPx = 1280;
 constexpr int kHeightPx = 720;
-constexpr int kRepeats = 5;
+constexpr int kRepeats = 3;
 constexpr std::array<std::uint32_t, 10> kPasses{1, 2, 5, 10, 20, 51, 102, 256, 512, kPassesOfSample};
 
 /// What an error is measured on: bytes as they are shown, and whether a pixel has points.
@@ -195,7 +195,7 @@ std::size_t countPoints(osg::Group& root, const scenegraph::CameraView& view) {
 }
 
 std::string tableOf(const std::vector<PointsAccuracyRow>& rows, const std::string& head) {
-  std::string table = head +
+  std::string table = "# Points: error against run time\n\n" + head +
                       "\n\n| way | points drawn (%) | frame (ms) | wrong pixels (%) | holes (%) | RMSE (of 255) |\n"
                       "|---|--:|--:|--:|--:|--:|\n";
   for (const PointsAccuracyRow& row : rows) {

@@ -264,7 +264,7 @@ TEST_F(PointStageSteps, DrawNoPointAgainForAnotherColour) {
   const auto before = colors(stage);
   EXPECT_EQ(step(stage, 1e9).raster_ms, 0.0);
   EXPECT_EQ(colors(stage), before);
-  ASSERT_TRUE(layer_->applySettings({{"colormap", "viridis"}}));
+  ASSERT_TRUE(layer_->applySettings({{"colormap", "turbo"}}));
   scene_->update(tf::TimePoint{1_s});
   EXPECT_EQ(step(stage, 1e9).raster_ms, 0.0);
   EXPECT_NE(colors(stage), before);

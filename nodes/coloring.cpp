@@ -16,8 +16,8 @@ RangeMap ValueColoring::map(const ValueRange& range, double offset) const noexce
 scenegraph::ColorLegend ValueColoring::legend(std::string title, std::string unit, const ValueRange& range) const {
   const Colormap* const found = findColormap(colormap);
   const Colormap& map = found != nullptr ? *found : colormaps().front();
-  scenegraph::ColorLegend legend{std::move(title), std::move(unit), range.low, range.high,
-                                 {map.anchors.begin(), map.anchors.end()}};
+  scenegraph::ColorLegend legend{
+      std::move(title), std::move(unit), range.low, range.high, {map.anchors.begin(), map.anchors.end()}};
   if (reverse_colormap) {
     std::ranges::reverse(legend.colors);
   }

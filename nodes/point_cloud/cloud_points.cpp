@@ -5,6 +5,8 @@
 #include <mutex>
 #include <tuple>
 
+#include "scenegraph/pipeline/point_boxes.h"
+
 namespace stillframe::nodes {
 namespace {
 
@@ -36,7 +38,7 @@ std::expected<CloudPoints, scenegraph::Status> CloudPoints::make(std::shared_ptr
                                                                  const CloudSupplement& supplement) {
   CloudPoints points;
   points.supplement_ = supplement;
-  points.positions_ = new scenegraph::BoxedPoints;
+  points.positions_ = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
   points.positions_->setVertexBufferObject(new osg::VertexBufferObject);
   auto converted = convertCloud(*cloud, [&](std::size_t floats) {
     points.positions_->resize(floats / 3);
@@ -48,7 +50,7 @@ std::expected<CloudPoints, scenegraph::Status> CloudPoints::make(std::shared_ptr
   }
   points.converted_ = std::move(*converted);
   points.positions_->resize(points.converted_.points);
-  points.positions_->findBoxes();
+  scenegraph::findBoxes(*points.positions_);
   points.channels_ = listChannels(*cloud);
   points.color_source_ = findColors(*cloud);
   points.cloud_ = std::move(cloud);

@@ -15,7 +15,6 @@
 #include "nodes/points/point_colors.h"
 #include "nodes/points/value_range.h"
 #include "scenegraph/objects/point_cloud.h"
-#include "scenegraph/pipeline/boxed_points.h"
 #include "scenegraph/status.h"
 
 namespace stillframe::nodes {
@@ -74,7 +73,7 @@ class CloudPoints {
   std::shared_ptr<const scenegraph::PointCloud> cloud_;
   CloudSupplement supplement_;
   ConvertedCloud converted_;
-  osg::ref_ptr<scenegraph::BoxedPoints> positions_;
+  osg::ref_ptr<osg::Vec3Array> positions_;
   std::vector<ChannelInfo> channels_;
   std::optional<ColorSource> color_source_;
   std::unique_ptr<Lazy> lazy_;

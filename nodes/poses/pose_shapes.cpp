@@ -62,7 +62,7 @@ void PoseShapes::clear() {
   if (line_) {
     parent_.removeChild(line_place_);
     line_.reset();
-  line_range_.reset();
+    line_range_.reset();
     line_place_ = nullptr;
   }
   parent_.removeChild(label_);

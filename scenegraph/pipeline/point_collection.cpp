@@ -6,7 +6,7 @@
 #include <osg/Transform>
 
 #include "scenegraph/geometry.h"
-#include "scenegraph/pipeline/boxed_points.h"
+#include "scenegraph/pipeline/point_boxes.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -118,8 +118,8 @@ class PointCollector : public osg::NodeVisitor {
       batch.depths = spanOf(*depths);
       batch.unit = uniforms.get("u_unit", 1.0F);
       batch.farthest = uniforms.get("u_max_depth", 0.0F);
-    } else if (const auto* const boxed = dynamic_cast<const BoxedPoints*>(vertices)) {
-      batch.boxes = boxed->boxes();
+    } else {
+      batch.boxes = knownBoxes(*vertices);
     }
     collected.batches.push_back(batch);
     collected.arrays.push_back({.positions = vertices,

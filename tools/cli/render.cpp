@@ -225,7 +225,11 @@ Result<Run> prepare(const RenderCommandOptions& options) {
   if (!channels) {
     return std::unexpected(channels.error());
   }
-  return Run{.view = std::move(*view), .effects = std::move(*effects), .channels = *channels, .is_exr = is_exr, .has_legend = options.has_legend};
+  return Run{.view = std::move(*view),
+             .effects = std::move(*effects),
+             .channels = *channels,
+             .is_exr = is_exr,
+             .has_legend = options.has_legend};
 }
 
 Result<void> runRender(const RenderCommandOptions& options) {

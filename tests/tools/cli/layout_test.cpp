@@ -80,9 +80,13 @@ TEST_F(LayoutOption, OptionsGoBeforeIt) {
   EXPECT_EQ(said["fixed_frame"], "map");
   EXPECT_EQ(layer(said, "grid")["visible"], true);
   EXPECT_FALSE(said["effects"].contains("edl"));
-  ASSERT_EQ(
-      render("b.png", {"--fixed-frame", "map", "--layer", "/lidar/points:point_size=6", "--camera", "topdown"}).code,
-      0);
+  // A layout that says the same.
+  ASSERT_EQ(render("a.png", {"--layout", file, "--fixed-frame", "map", "--edl=false", "--camera", "topdown"}).code, 0);
+  scenegraph::ViewLayout same = makeLayout();
+  same.fixed_frame = "map";
+  same.effects.clear();
+  const std::string other = folder_.makeFile("same.xml", textOf(same));
+  ASSERT_EQ(render("b.png", {"--layout", other, "--camera", "topdown"}).code, 0);
   EXPECT_EQ(picture("a.png"), picture("b.png"));
 }
 

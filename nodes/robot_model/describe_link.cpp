@@ -1,10 +1,12 @@
-// What RobotModelLayer says of a link that is picked.
+// What RobotModelLayer says of itself: a link that is picked, its nodes, and shapes that could not be had.
 #include <algorithm>
 
 #include "nodes/robot_model/robot_model_layer.h"
 
 namespace stillframe::nodes {
 namespace {
+
+constexpr std::size_t kMostNamedFaults = 3;
 
 const char* shapeName(RobotShapeKind kind) {
   switch (kind) {
@@ -60,6 +62,23 @@ std::optional<scenegraph::Picked> RobotModelLayer::describe(const scenegraph::Pi
   }
   picked.add("triangle", hit.primitive);
   return picked;
+}
+
+void RobotModelLayer::collectNodes(std::vector<osg::Node*>& nodes) const {
+  for (const LinkNode& link : nodes_) {
+    if (link.anchor) {
+      nodes.push_back(link.node);
+    }
+  }
+}
+
+std::string RobotModelLayer::faultText() const {
+  const auto& faults = scene_->faults();
+  std::string text = std::to_string(faults.size()) + " of its shapes are boxes in place of meshes: ";
+  for (std::size_t i = 0; i < std::min(faults.size(), kMostNamedFaults); ++i) {
+    text += (i == 0 ? "link '" : "; link '") + faults[i].link + "': " + faults[i].status.message;
+  }
+  return text + (faults.size() > kMostNamedFaults ? "; and more" : "");
 }
 
 }  // namespace stillframe::nodes

@@ -17,7 +17,6 @@ using scenegraph::StatusLevel;
 
 namespace {
 
-constexpr std::size_t kMostNamedFaults = 3;
 constexpr std::size_t kMostLinkRows = 500;  // a longer list is no list: the command line still reaches every link
 
 std::vector<std::filesystem::path> pathsOf(const std::string& text) {
@@ -273,23 +272,6 @@ void RobotModelLayer::hang(LinkNode& link, const std::optional<std::string>& anc
   if (link.anchor) {
     context_->frames.acquire(*link.anchor).addChild(link.node);
   }
-}
-
-void RobotModelLayer::collectNodes(std::vector<osg::Node*>& nodes) const {
-  for (const LinkNode& link : nodes_) {
-    if (link.anchor) {
-      nodes.push_back(link.node);
-    }
-  }
-}
-
-std::string RobotModelLayer::faultText() const {
-  const auto& faults = scene_->faults();
-  std::string text = std::to_string(faults.size()) + " of its shapes are boxes in place of meshes: ";
-  for (std::size_t i = 0; i < std::min(faults.size(), kMostNamedFaults); ++i) {
-    text += (i == 0 ? "link '" : "; link '") + faults[i].link + "': " + faults[i].status.message;
-  }
-  return text + (faults.size() > kMostNamedFaults ? "; and more" : "");
 }
 
 std::string RobotModelLayer::kinematicsText() const {

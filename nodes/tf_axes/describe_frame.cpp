@@ -1,4 +1,4 @@
-// What TfAxesLayer says of a frame that is picked.
+// What TfAxesLayer says of itself: a frame that is picked, where frames lie, its nodes and counts.
 #include <algorithm>
 
 #include "nodes/tf_axes/tf_axes_layer.h"
@@ -27,6 +27,34 @@ std::optional<scenegraph::Picked> TfAxesLayer::describe(const scenegraph::PickHi
     }
   }
   return picked;
+}
+
+std::vector<scenegraph::Box> TfAxesLayer::bulkInFixed() const {
+  std::vector<scenegraph::Box> boxes;
+  for (const Shown& shown : shown_) {
+    if (const auto fixed_from_frame = context_->frames.fixedFromFrame(shown.name)) {
+      const glm::dvec3& at = fixed_from_frame->translation;
+      boxes.push_back({at - settings_.axis_length_m, at + settings_.axis_length_m});
+    }
+  }
+  return boxes;
+}
+
+void TfAxesLayer::collectNodes(std::vector<osg::Node*>& nodes) const {
+  for (const Shown& shown : shown_) {
+    nodes.push_back(shown.group);
+  }
+}
+
+scenegraph::LayerCounts TfAxesLayer::counts() const {
+  scenegraph::LayerCounts counts{{"frames", shown_.size()}, {"unresolved", shown_.size() - resolved_}};
+  if (const auto stale = std::ranges::count_if(shown_, &Shown::is_stale); stale > 0) {
+    counts.emplace_back("stale", static_cast<std::uint64_t>(stale));
+  }
+  if (left_out_ > 0) {
+    counts.emplace_back("left_out", left_out_);
+  }
+  return counts;
 }
 
 }  // namespace stillframe::nodes

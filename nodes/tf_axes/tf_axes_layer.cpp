@@ -350,37 +350,9 @@ void TfAxesLayer::judge() {
   }
 }
 
-std::vector<scenegraph::Box> TfAxesLayer::bulkInFixed() const {
-  std::vector<scenegraph::Box> boxes;
-  for (const Shown& shown : shown_) {
-    if (const auto fixed_from_frame = context_->frames.fixedFromFrame(shown.name)) {
-      const glm::dvec3& at = fixed_from_frame->translation;
-      boxes.push_back({at - settings_.axis_length_m, at + settings_.axis_length_m});
-    }
-  }
-  return boxes;
-}
-
 std::string TfAxesLayer::leftOutText() const {
   return "the first " + std::to_string(shown_.size()) + " of " + std::to_string(shown_.size() + left_out_) +
          " frames are drawn: set frame_filter to see others, or raise max_frames";
-}
-
-void TfAxesLayer::collectNodes(std::vector<osg::Node*>& nodes) const {
-  for (const Shown& shown : shown_) {
-    nodes.push_back(shown.group);
-  }
-}
-
-scenegraph::LayerCounts TfAxesLayer::counts() const {
-  scenegraph::LayerCounts counts{{"frames", shown_.size()}, {"unresolved", shown_.size() - resolved_}};
-  if (const auto stale = std::ranges::count_if(shown_, &Shown::is_stale); stale > 0) {
-    counts.emplace_back("stale", static_cast<std::uint64_t>(stale));
-  }
-  if (left_out_ > 0) {
-    counts.emplace_back("left_out", left_out_);
-  }
-  return counts;
 }
 
 std::vector<scenegraph::SettingSpec> TfAxesLayer::settingSpecs() const { return table().specs(); }

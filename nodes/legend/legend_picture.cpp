@@ -17,8 +17,10 @@ constexpr double kPadding = 8.0;
 constexpr double kGap = 7.0;  // between legends
 constexpr double kTextHeight = 12.0;
 constexpr double kLine = 15.0;
+constexpr double kBarTop = 2 * kLine + 3.0;  // clear of the feet of g and y
 constexpr double kBar = 11.0;
-constexpr double kEntry = 2 * kLine + kBar + 3.0 + kLine;  // two lines, bar, numbers
+constexpr double kNumbersTop = kBarTop + kBar + 2.0;
+constexpr double kEntry = kNumbersTop + kLine;
 constexpr double kCorner = 4.0;
 
 constexpr PixelColor kCard{18, 20, 24, 205};
@@ -55,8 +57,8 @@ class Card {
     text(entry.layer, kPadding, top, kDim, Align::Left);
     text(legend.unit.empty() ? legend.title : legend.title + " (" + legend.unit + ")", kPadding, top + kLine, kText,
          Align::Left);
-    bar(legend, top + 2 * kLine);
-    const double numbers = top + 2 * kLine + kBar + 3.0;
+    bar(legend, top + kBarTop);
+    const double numbers = top + kNumbersTop;
     const double middle = legend.low / 2 + legend.high / 2;
     text(legendNumber(legend.low, legend.low, legend.high), kPadding, numbers, kText, Align::Left);
     text(legendNumber(legend.high, legend.low, legend.high), kWidth - kPadding, numbers, kText, Align::Right);
@@ -119,6 +121,9 @@ std::string legendNumber(double value, double low, double high) {
 }
 
 LegendPicture drawLegends(std::span<const LegendEntry> entries, double scale, int most_px) {
+  if (!(scale > 0.0) || scale > 16.0) {
+    return {};
+  }
   const auto heightOf = [&](std::size_t count) {
     const auto n = static_cast<double>(count);
     const double note = count < entries.size() ? kLine : 0.0;
@@ -128,7 +133,7 @@ LegendPicture drawLegends(std::span<const LegendEntry> entries, double scale, in
   while (count > 0 && heightOf(count) > most_px) {
     --count;
   }
-  if (count == 0 || !(scale > 0.0) || scale > 16.0) {
+  if (count == 0) {
     return {};
   }
   GlyphCanvas canvas(static_cast<int>(std::ceil(kWidth * scale)), heightOf(count));

@@ -22,6 +22,16 @@ using scenegraph::StatusLevel;
 
 QString toQString(std::string_view text) { return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())); }
 
+/// A sentence as long as a row has room for; the rest is beneath it, and in the tool tip.
+QString beginning(const QString& sentence) {
+  constexpr qsizetype kMost = 110;
+  if (sentence.size() <= kMost) {
+    return sentence;
+  }
+  const qsizetype space = sentence.lastIndexOf(QLatin1Char(' '), kMost);
+  return sentence.left(space > kMost / 2 ? space : kMost) + QStringLiteral(" ...");
+}
+
 }  // namespace
 
 QString layerName(const scenegraph::LayerSlot& slot) {
@@ -35,7 +45,7 @@ QString statusLine(const scenegraph::Layer& layer) {
   }
   const scenegraph::Status& status = layer.status();
   if (status.level >= StatusLevel::Warn) {
-    return QString::fromStdString(status.message.empty() ? status.code : status.message);
+    return beginning(QString::fromStdString(status.message.empty() ? status.code : status.message));
   }
   QStringList parts;
   if (const auto counts = layer.counts(); !counts.empty()) {
@@ -130,6 +140,7 @@ void LayerTree::showDetails(const Row& row, const scenegraph::LayerSlot& slot) {
   const QString text = QString::fromStdString(scenegraph::costText(cost));
   if (row.cost->text(0) != text) {
     row.cost->setText(0, text);
+    scheduleDelayedItemsLayout();  // it may take another line
   }
   if (RangeEditor* const range = row.settings->range()) {
     const auto legend = row.layer->legend();
@@ -211,6 +222,7 @@ void LayerTree::showStatus(const Row& row) {
   row.item->setIcon(1, statusIcon(level));
   row.note->setText(0, note);
   row.note->setHidden(note.isEmpty());
+  scheduleDelayedItemsLayout();
   QString tip = QString::fromStdString(status.code);
   if (!status.message.empty()) {
     tip += QStringLiteral(": ") + QString::fromStdString(status.message);

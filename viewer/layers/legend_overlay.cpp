@@ -8,7 +8,7 @@ namespace stillframe::viewer {
 namespace {
 
 constexpr int kMargin = 10;
-constexpr double kMostOfView = 0.8;  // of its height
+constexpr double kMostOfView = 0.5;  // of its height
 constexpr int kLeastWidth = 320;     // of a view that has room for a legend beside its picture
 
 }  // namespace

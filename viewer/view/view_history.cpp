@@ -29,7 +29,8 @@ class ViewHistory::Step : public QUndoCommand {
   [[nodiscard]] int id() const override { return gesture_.isEmpty() ? -1 : 1; }
   bool mergeWith(const QUndoCommand* next) override {
     const auto& later = static_cast<const Step&>(*next);
-    if (later.gesture_ != gesture_ || made_.elapsed() > kGestureMs) {
+    const bool has_other_change = later.before_ != after_;  // something came by itself in between
+    if (later.gesture_ != gesture_ || has_other_change || made_.elapsed() > kGestureMs) {
       return false;
     }
     after_ = later.after_;

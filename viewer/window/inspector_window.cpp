@@ -19,6 +19,7 @@
 #include "viewer/frames/frame_tree.h"
 #include "viewer/pick/inspect_dock.h"
 #include "viewer/time/time_bar.h"
+#include "viewer/view/view_history.h"
 #include "viewer/widget/scene_widget.h"
 #include "viewer/window/keyboard_guard.h"
 #include "viewer/window/message_bar.h"
@@ -171,6 +172,17 @@ void InspectorWindow::buildMenus() {
   QAction* quit = file->addAction(tr("&Quit"));
   quit->setShortcut(QKeySequence::Quit);
   connect(quit, &QAction::triggered, this, &QWidget::close);
+
+  QMenu* edit = menuBar()->addMenu(tr("&Edit"));  // the keys are those of each view
+  QAction* undo = edit->addAction(QString(), this, [this] { activeView().history().stack().undo(); });
+  QAction* redo = edit->addAction(QString(), this, [this] { activeView().history().stack().redo(); });
+  connect(edit, &QMenu::aboutToShow, this, [this, undo, redo] {
+    const QUndoStack& stack = activeView().history().stack();
+    undo->setText(tr("&Undo %1\tCtrl+Z").arg(stack.undoText()));
+    undo->setEnabled(stack.canUndo());
+    redo->setText(tr("&Redo %1\tCtrl+Shift+Z").arg(stack.redoText()));
+    redo->setEnabled(stack.canRedo());
+  });
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
   connect(view->addAction(tr("Add view to the &right")), &QAction::triggered, this,

@@ -1,7 +1,8 @@
 #version 450 compatibility
 // The blended fragments of a sample (listed.glsl), put in order and laid over each other: light, premultiplied, and how
 // much of what lies behind it hides. The nearest u_most_sorted are exact, in rounds of kRound; what lies behind those
-// counts by its mean. In order means by depth, then by colour: nothing hangs on who came first. Depth is the nearest one's.
+// counts by its mean. In order means by depth, then by colour: nothing hangs on who came first. What has both in
+// common counts once. Depth is the nearest one's.
 const int kRound = 16;
 const float kNothing = 1.0 / 4096.0;
 
@@ -29,8 +30,7 @@ void main() {
   vec3 light = vec3(0.0);
   float through = 1.0;
   uint nearest = 0u;
-  uvec3 last = uvec3(0xffffffffu, 0u, 0u);  // before all
-  int equal_to_last = 0;                    // of those that are in the picture
+  uvec3 last = uvec3(0xffffffffu, 0u, 0u);  // before all, then the last in the picture
   bool is_whole = false;
   for (int done = 0; done < u_most_sorted && !is_whole && through > kNothing; done += kRound) {
     uvec3 kept[kRound];
@@ -39,13 +39,19 @@ void main() {
     }
     int most = min(kRound, u_most_sorted - done);
     int count = 0;
-    int equal = 0;
     is_whole = true;
     for (uint number = head; number != 0u;) {
       uvec4 fragment = fragmentAt(number);
       number = fragment.x;
       uvec3 key = fragment.yzw;
-      if (isBefore(key, last) || (key == last && equal++ < equal_to_last)) {
+      if (!isBefore(last, key)) {
+        continue;
+      }
+      bool is_kept = false;  // segments of a line lie on each other, and are one line
+      for (int i = 0; i < kRound; ++i) {
+        is_kept = is_kept || (i < count && kept[i] == key);
+      }
+      if (is_kept) {
         continue;
       }
       if (count == most) {
@@ -69,19 +75,17 @@ void main() {
       vec4 color = colorOf(kept[i]);
       light += through * color.a * color.rgb;
       through *= 1.0 - color.a;
-      equal_to_last = kept[i] == last ? equal_to_last + 1 : 1;
       last = kept[i];
     }
   }
   if (!is_whole && through > kNothing) {
     vec4 sum = vec4(0.0);
     float rest = 1.0;
-    int equal = 0;
     for (uint number = head; number != 0u;) {
       uvec4 fragment = fragmentAt(number);
       number = fragment.x;
       uvec3 key = fragment.yzw;
-      if (isBefore(key, last) || (key == last && equal++ < equal_to_last)) {
+      if (!isBefore(last, key)) {
         continue;
       }
       nearest = max(nearest, key.x);

@@ -20,7 +20,8 @@ TEST(TransparencyAccuracy, HasNoErrorWhereAllIsInOrderAndLittleWhereWhatMattersI
     }
     if (row.most_sorted == scenegraph::kMostSorted) {
       has_default = true;
-      EXPECT_LT(row.max_error, 1.0 / 255.0) << name << ": a step of a byte";
+      // A step of a byte; of more layers that each hide next to nothing, those behind make three or so.
+      EXPECT_LT(row.max_error, row.layers > scenegraph::kMostSorted ? 3.0 / 255.0 : 1.0 / 255.0) << name;
     }
   }
   EXPECT_TRUE(has_default);

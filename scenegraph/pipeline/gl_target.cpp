@@ -30,6 +30,8 @@ void selectTextureUnits(std::uint32_t unit, std::uint32_t client_unit) {
   glClientActiveTexture(GL_TEXTURE0 + client_unit);
 }
 
+void finish() { glFinish(); }
+
 bool isEnabled(std::uint32_t capability) { return glIsEnabled(capability) == GL_TRUE; }
 
 std::uint32_t incompleteStatus(std::uint32_t color_texture, std::uint32_t depth_texture) {

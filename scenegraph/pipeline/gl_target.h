@@ -11,6 +11,8 @@ void bindFramebuffer(std::uint32_t fbo);
 /// For textures and, in the compatibility profile, for texture coordinates.
 void selectTextureUnits(std::uint32_t unit, std::uint32_t client_unit);
 [[nodiscard]] bool isEnabled(std::uint32_t capability);
+/// Waits until all that was asked for is drawn.
+void finish();
 /// Status of a framebuffer with these two textures; 0 when it can be drawn into.
 [[nodiscard]] std::uint32_t incompleteStatus(std::uint32_t color_texture, std::uint32_t depth_texture);
 /// Samples a pixel that colour and depth textures can have on this driver.

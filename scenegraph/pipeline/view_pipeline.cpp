@@ -1,5 +1,8 @@
 #include "scenegraph/pipeline/view_pipeline.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <osg/Camera>
@@ -49,6 +52,7 @@ struct ViewPipeline::Impl {
   int most_sorted = kMostSorted;
   PointWay point_way = PointWay::Auto;
   PointLimits point_limits;
+  double rest_ms = 0.0;  // of a frame beside its points, measured where there is a budget for both
   bool is_software = false;
   osg::ref_ptr<osg::Group> content;         // the root, and the picture of the points
   std::unique_ptr<PointStage> point_stage;  // none before there are points for it
@@ -66,6 +70,8 @@ struct ViewPipeline::Impl {
   [[nodiscard]] PointWay wayOf(const PointCollection& points) const;
   void drawPoints();
   void dropPoints();
+  void drawFrame();
+  [[nodiscard]] bool isPaced() const { return is_software && std::isfinite(point_limits.budget_ms); }
   [[nodiscard]] GLuint textureId(const std::string& target) const;
   std::expected<void, Status> checkTargets() const;
   std::expected<void, Status> draw(std::uint32_t output_fbo, int width, int height, bool present);
@@ -203,10 +209,24 @@ void ViewPipeline::Impl::drawPoints() {
     PointLimits limits = point_limits;
     if (stages->subFrames() > 1) {
       limits.budget_ms = std::numeric_limits<double>::infinity();
+    } else if (isPaced()) {
+      constexpr double kLeast = 0.25;  // of the budget: the picture of the points must come to an end
+      limits.budget_ms = std::max(limits.budget_ms - rest_ms, kLeast * limits.budget_ms);
     }
     point_progress = point_stage->draw(std::move(points), width_px, height_px, limits);
   }
   stages->setCullMask(point_progress ? ~kOpaquePoints : ~osg::Node::NodeMask{0});
+}
+
+/// In software the frame is drawn by the processor that the points are drawn by: what it took, they have less of.
+void ViewPipeline::Impl::drawFrame() {
+  const auto start = std::chrono::steady_clock::now();
+  viewer->frame();
+  if (point_progress && isPaced()) {
+    gl::finish();
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    rest_ms += (took.count() - rest_ms) / 2.0;
+  }
 }
 
 void ViewPipeline::Impl::dropPoints() {
@@ -254,7 +274,7 @@ std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, i
     stages->startSubFrame(i);
     drawPoints();
     gl::bindFramebuffer(output_fbo);
-    viewer->frame();
+    drawFrame();
   }
   gl::bindFramebuffer(output_fbo);
   passes = stages->passes();

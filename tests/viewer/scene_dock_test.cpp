@@ -225,6 +225,22 @@ TEST_F(SceneDockTest, KeysInTheViewAskForTimeAndPlay) {
   EXPECT_EQ(dock->panel().view().time(), TimePoint{3_s}) << "time is the host's";
 }
 
+TEST_F(SceneDockTest, ClickTellsTheHostWhatIsThere) {
+  const auto dock = makeDock(robot_);
+  SceneWidget& view = dock->panel().view();
+  ASSERT_TRUE(view.scene()->findLayer("/points")->layer->applySettings({{"point_size", "40"}}));
+  view.frameAll();
+  ASSERT_TRUE(waitFor([&] { return !view.scene()->isPending() && !view.applyTick(); }));
+  settle();
+  const QSignalSpy picks(dock.get(), &SceneDock::picked);
+  for (int y = 4; y < view.height() && picks.isEmpty(); y += 16) {
+    for (int x = 4; x < view.width() && picks.isEmpty(); x += 16) {
+      QTest::mouseClick(&view, Qt::LeftButton, {}, {x, y});
+    }
+  }
+  EXPECT_EQ(picks.size(), 1);
+}
+
 TEST_F(SceneDockTest, DocksOfOneContextAreIndependent) {
   const auto first = makeDock(robot_);
   const auto second = makeDock(robot_);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "viewer/dock/dom.h"
+#include "viewer/pick/view_picks.h"
 #include "viewer/time/time_bar.h"
 #include "viewer/view/view_panel.h"
 #include "viewer/widget/scene_widget.h"
@@ -42,6 +43,11 @@ SceneDock::SceneDock(DockContext& context, QWidget* parent) : QWidget(parent), c
   });
   connect(panel_, &ViewPanel::refused, this,
           [this](const QString& message) { messages_->showMessage(scenegraph::StatusLevel::Warn, message); });
+  connect(&panel_->view().picks(), &ViewPicks::changed, this, [this] {
+    if (const auto& selected = panel_->view().picks().selected()) {
+      Q_EMIT picked(*selected);
+    }
+  });
   const auto bind = [this](Qt::Key key, auto action) {
     connect(new QShortcut(key, &panel_->view(), nullptr, nullptr, Qt::WidgetShortcut), &QShortcut::activated, this,
             action);

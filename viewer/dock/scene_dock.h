@@ -7,6 +7,7 @@
 
 #include "scenegraph/executor.h"
 #include "scenegraph/layout/view_layout.h"
+#include "scenegraph/pick/scene_pick.h"
 #include "scenegraph/store/dataset.h"
 #include "viewer/frames/frame_memory.h"
 
@@ -77,6 +78,8 @@ class SceneDock : public QWidget {
   void seekRequested(stillframe::tf::TimePoint time);
   /// The user wants to play or to stop (Space in the view).
   void playRequested();
+  /// The user has clicked something: the layer, the message and the fields of what is there, and its place.
+  void picked(const stillframe::scenegraph::PickResult& result);
   /// Another dataset of those given is shown.
   void datasetChosen(const std::shared_ptr<stillframe::scenegraph::Dataset>& dataset);
 

@@ -4,15 +4,20 @@
 #include <glm/vec4.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "nodes/points/channel.h"
-#include "nodes/points/colormap.h"
 #include "nodes/points/value_range.h"
 #include "scenegraph/color_legend.h"
 #include "scenegraph/settings.h"
 #include "tf/rigid_transform.h"
 
 namespace stillframe::nodes {
+
+/// What values are coloured by at first. Its lightness rises from end to end, also for eyes that lack one sort of
+/// cones, and so its order can be seen by anybody, in a grey print too; turbo's colours, brighter to most, come twice
+/// for many.
+inline constexpr std::string_view kDefaultColormap = "viridis";
 
 /// How values become colours: the settings of every layer that colours by a value. Settings structs derive from it.
 struct ValueColoring {

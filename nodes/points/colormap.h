@@ -29,10 +29,6 @@ struct Colormap {
 
 /// Every colormap, the default first.
 [[nodiscard]] std::span<const Colormap> colormaps();
-/// What values are coloured by at first. Its lightness rises from end to end, also for eyes that lack one sort of
-/// cones, and so its order can be seen by anybody, in a grey print too; turbo's colours, brighter to most, come twice
-/// for many.
-inline constexpr std::string_view kDefaultColormap = "viridis";
 /// By name; nullptr when there is none of that name.
 [[nodiscard]] const Colormap* findColormap(std::string_view name);
 

@@ -299,7 +299,7 @@ void TfAxesLayer::setView(const scenegraph::CameraView& view, const scenegraph::
                    at->depth_m, true};
     }
   }
-  const std::vector<LabelPlace> places = placeLabels(wishes, kSamePx, kMostLines);
+  const std::vector<LabelPlace> places = placeLabels(wishes, kSamePx * size.pixel_ratio, kMostLines);
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     shown_[i].label->setNodeMask(places[i].is_shown ? ~0U : 0U);
     if (!places[i].is_shown) {

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "nodes/coloring.h"
 #include "nodes/points/channel.h"
 #include "nodes/points/value_range.h"
 

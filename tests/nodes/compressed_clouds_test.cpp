@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "nodes/coloring.h"
 #include "nodes/points/colormap.h"
 #include "scenegraph/objects/compressed_point_cloud.h"
 #include "tests/nodes/scene_picture.h"
@@ -132,7 +133,7 @@ class ScanPicture : public ScenePictureTest {
     builder.topic("/tf", ObjectType::FrameTransforms).transform(0, "map", "lidar");
     builder.topic("/points", Cloud::kType).at(1_s, std::move(cloud));
     open(builder.build(), "map");
-    add("/points", {{"color_field", "z"}, {"point_size", "2"}});
+    add("/points", {{"color_field", "z"}, {"colormap", "turbo"}, {"point_size", "2"}});
     return draw(1_s, {.eye_from_fixed = scenegraph::lookAt({4, -28, 22}, {0, 0, 0}, {0, 0, 1})}, 320, 240);
   }
   static int differingPixels(const scenegraph::BytePicture& a, const scenegraph::BytePicture& b) {

@@ -49,8 +49,8 @@ std::expected<int, scenegraph::Status> runInspector(int argc, char** argv, const
   InspectorWindow window(opener, options);
   if (options.reports_stalls) {
     QObject::connect(&window, &InspectorWindow::loaded, &app, [&monitor] {
-      std::printf("Until the recording was loaded. %s", monitor.report().c_str());
-      monitor.reset();
+      std::printf("Until the recording was loaded, %s", monitor.report().c_str());
+      monitor = {};
     });
     app.watch(&monitor);
   }
@@ -58,7 +58,7 @@ std::expected<int, scenegraph::Status> runInspector(int argc, char** argv, const
   const int code = QApplication::exec();
   if (options.reports_stalls) {
     app.watch(nullptr);
-    std::printf("Since then. %s", monitor.report().c_str());
+    std::printf("Since then, %s", monitor.report().c_str());
   }
   return code;
 }

@@ -20,18 +20,18 @@ const QString kSettings = QStringLiteral("Stillframe");
 const QString kKey = QStringLiteral("theme");
 
 QPalette darkPalette() {
-  QPalette colors(QColor(0x3a, 0x3d, 0x42), QColor(0x2b, 0x2d, 0x31));
+  QPalette colors(QColor(0x50, 0x55, 0x5d), QColor(0x42, 0x46, 0x4d));
   const QColor text(0xe6, 0xe6, 0xe6);
-  const QColor dimmed(0x8a, 0x8d, 0x92);
+  const QColor dimmed(0x9a, 0x9d, 0xa2);
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::ToolTipText}) {
     colors.setColor(role, text);
     colors.setColor(QPalette::Disabled, role, dimmed);
   }
   colors.setColor(QPalette::PlaceholderText, dimmed);
   colors.setColor(QPalette::BrightText, Qt::white);
-  colors.setColor(QPalette::Base, QColor(0x20, 0x22, 0x25));
-  colors.setColor(QPalette::AlternateBase, QColor(0x27, 0x29, 0x2d));
-  colors.setColor(QPalette::ToolTipBase, QColor(0x40, 0x44, 0x4a));
+  colors.setColor(QPalette::Base, QColor(0x19, 0x1b, 0x1e));
+  colors.setColor(QPalette::AlternateBase, QColor(0x20, 0x23, 0x27));
+  colors.setColor(QPalette::ToolTipBase, QColor(0x2a, 0x2d, 0x31));
   colors.setColor(QPalette::Highlight, QColor(0x2f, 0x6f, 0xb5));
   colors.setColor(QPalette::HighlightedText, Qt::white);
   colors.setColor(QPalette::Disabled, QPalette::Highlight, QColor(0x50, 0x54, 0x5a));

@@ -20,7 +20,7 @@ const QString kSettings = QStringLiteral("Stillframe");
 const QString kKey = QStringLiteral("theme");
 
 QPalette darkPalette() {
-  QPalette colors(QColor(0x50, 0x55, 0x5d), QColor(0x42, 0x46, 0x4d));
+  QPalette colors(QColor(0x45, 0x49, 0x50), QColor(0x3e, 0x42, 0x48));
   const QColor text(0xe6, 0xe6, 0xe6);
   const QColor dimmed(0x9a, 0x9d, 0xa2);
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::ToolTipText}) {

@@ -25,7 +25,7 @@ void ColoringState::setColormap(const std::string& name) {
   const Colormap* const found = findColormap(name);
   const Colormap& map = found != nullptr ? *found : colormaps().front();
   for (unsigned i = 0; i < Colormap::kAnchors; ++i) {
-    const Rgb& color = map.anchors[i];
+    const SrgbColor& color = map.anchors[i];
     colormap_->setElement(i, osg::Vec3(color[0], color[1], color[2]));
   }
 }

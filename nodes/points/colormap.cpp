@@ -6,7 +6,7 @@
 namespace stillframe::nodes {
 namespace {
 
-using Anchors = std::array<Rgb, Colormap::kAnchors>;
+using Anchors = std::array<SrgbColor, Colormap::kAnchors>;
 
 consteval float hexByte(const char* at) {
   const auto digit = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
@@ -82,11 +82,11 @@ constexpr std::array<Colormap, 9> kColormaps = {{
 
 }  // namespace
 
-Rgb Colormap::at(double t) const noexcept {
+SrgbColor Colormap::at(double t) const noexcept {
   const double x = (t > 0.0 ? std::min(t, 1.0) : 0.0) * static_cast<double>(kAnchors - 1);
   const auto below = std::min(static_cast<std::size_t>(x), kAnchors - 2);
   const auto weight = static_cast<float>(x - static_cast<double>(below));
-  Rgb color{};
+  SrgbColor color{};
   for (std::size_t c = 0; c < 3; ++c) {
     color[c] = anchors[below][c] + (anchors[below + 1][c] - anchors[below][c]) * weight;
   }

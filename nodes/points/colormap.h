@@ -9,7 +9,7 @@
 namespace stillframe::nodes {
 
 /// sRGB-encoded components 0..1.
-using Rgb = std::array<float, 3>;
+using SrgbColor = std::array<float, 3>;
 
 /// A map from 0..1 to colour as equally spaced anchors with straight lines between them: small enough for a uniform
 /// array, so that another colormap is another uniform and never another vertex or texture.
@@ -21,10 +21,10 @@ using Rgb = std::array<float, 3>;
 struct Colormap {
   static constexpr std::size_t kAnchors = 33;
   std::string_view name;
-  std::array<Rgb, kAnchors> anchors;
+  std::array<SrgbColor, kAnchors> anchors;
 
   /// Colour at t, clamped to 0..1; NaN is the first anchor. What the shaders compute.
-  [[nodiscard]] Rgb at(double t) const noexcept;
+  [[nodiscard]] SrgbColor at(double t) const noexcept;
 };
 
 /// Every colormap, the default first.

@@ -18,10 +18,10 @@ namespace {
 
 using nodes::findColormap;
 using nodes::mapRange;
-using nodes::Rgb;
+using nodes::SrgbColor;
 using nodes::ValueRange;
 
-void expectColor(const Rgb& color, double r, double g, double b) {
+void expectColor(const SrgbColor& color, double r, double g, double b) {
   EXPECT_NEAR(color[0] * 255.0F, r, 0.51);
   EXPECT_NEAR(color[1] * 255.0F, g, 0.51);
   EXPECT_NEAR(color[2] * 255.0F, b, 0.51);
@@ -78,7 +78,7 @@ std::array<double, 3> times(const Matrix& matrix, const std::array<double, 3>& v
 }
 
 /// CIE L*, a*, b* of an sRGB colour as these eyes see it.
-std::array<double, 3> labOf(const Rgb& srgb, const Matrix& eyes) {
+std::array<double, 3> labOf(const SrgbColor& srgb, const Matrix& eyes) {
   std::array<double, 3> linear{};
   for (std::size_t c = 0; c < 3; ++c) {
     const double value = static_cast<double>(srgb[c]);

@@ -61,7 +61,7 @@ DatasetBuilder withTransforms() {
 }
 
 void expectColor(const Bytes3& pixel, double t) {
-  const nodes::Rgb color = nodes::findColormap(nodes::kDefaultColormap)->at(t);
+  const nodes::SrgbColor color = nodes::findColormap(nodes::kDefaultColormap)->at(t);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(pixel[i], color[i] * 255.0F, 3.0) << "at t = " << t;
   }

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void expectColor(const Bytes3& actual, const char* colormap, double t, double shade = 1.0) {
-  const nodes::Rgb color = nodes::findColormap(colormap)->at(t);
+  const nodes::SrgbColor color = nodes::findColormap(colormap)->at(t);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(actual[i], color[i] * 255.0 * shade, 4) << testing::PrintToString(actual) << " at " << t;
   }

@@ -11,7 +11,7 @@ namespace stillframe::test {
 
 /// The bytes of a colormap's colour.
 inline Bytes3 colorAt(const char* colormap, double t) {
-  const nodes::Rgb color = nodes::findColormap(colormap)->at(t);
+  const nodes::SrgbColor color = nodes::findColormap(colormap)->at(t);
   return {static_cast<int>(std::lround(color[0] * 255.0F)), static_cast<int>(std::lround(color[1] * 255.0F)),
           static_cast<int>(std::lround(color[2] * 255.0F))};
 }

@@ -34,7 +34,7 @@ std::shared_ptr<scenegraph::Dataset> datasetOf(const VoxelGrid& grid) {
 }
 
 Bytes3 mapped(const char* colormap, double t) {
-  const nodes::Rgb color = nodes::findColormap(colormap)->at(t);
+  const nodes::SrgbColor color = nodes::findColormap(colormap)->at(t);
   return {static_cast<int>(std::lround(255 * color[0])), static_cast<int>(std::lround(255 * color[1])),
           static_cast<int>(std::lround(255 * color[2]))};
 }

@@ -22,6 +22,7 @@ namespace {
 using namespace tf::literals;
 using scenegraph::PickError;
 using test::settle;
+using test::waitFor;
 using tf::TimePoint;
 
 constexpr scenegraph::PictureSize kSize{400.0, 300.0};
@@ -91,14 +92,15 @@ TEST_F(WidgetPickTest, HoverSaysWhatIsThereAndDrawsNoFrame) {
   auto* const label = widget_.findChild<HoverLabel*>();
   ASSERT_NE(label, nullptr);
   move(at(0.0, 0.0));
-  EXPECT_TRUE(label->thing().startsWith(QStringLiteral("/points  point"))) << label->thing().toStdString();
+  EXPECT_TRUE(waitFor([&] { return label->thing().startsWith(QStringLiteral("/points  point")); }))
+      << label->thing().toStdString();
   const auto frames = widget_.framesDrawn();
   for (int i = 0; i < 20; ++i) {
     move(at(0.02 * i - 0.2, 0.1));
   }
   EXPECT_EQ(widget_.framesDrawn(), frames);
   move({3, 3});
-  EXPECT_TRUE(label->thing().isEmpty());
+  EXPECT_TRUE(waitFor([&] { return label->thing().isEmpty(); }));  // at once, or when the cursor rests
   EXPECT_TRUE(label->isHidden());
 }
 
@@ -182,6 +184,8 @@ TEST_F(WidgetPickTest, PanelShowsCopiesAndRemoves) {
   panel.rows().clearSelection();
   EXPECT_NE(panel.copyText(), all) << "the position in the map is that of now";
 
+  widget_.setTime(TimePoint{2_s});
+  settle();
   click(at(0.5, 0.5), Qt::ShiftModifier);
   EXPECT_EQ(panel.measurements().topLevelItemCount(), 1);
   panel.findChild<QToolButton*>(QStringLiteral("removeMeasurement"))->click();

@@ -1,5 +1,6 @@
 #include "viewer/pick/hover_label.h"
 
+#include <QEvent>
 #include <algorithm>
 
 namespace stillframe::viewer {
@@ -9,9 +10,14 @@ constexpr int kOffset = 14;  // device-independent pixels from the cursor
 
 }  // namespace
 
-HoverLabel::HoverLabel(QWidget* parent) : QLabel(parent) {
+HoverLabel::HoverLabel(QWidget* parent)
+    : QLabel(parent,
+             Qt::ToolTip | Qt::FramelessWindowHint | Qt::WindowTransparentForInput | Qt::WindowDoesNotAcceptFocus) {
   setObjectName(QStringLiteral("hover"));
+  setAttribute(Qt::WA_ShowWithoutActivating);
   setAttribute(Qt::WA_TransparentForMouseEvents);
+  setStyleSheet(QStringLiteral("color: white; background: #14161a; padding: 2px 5px;"));
+  parent->installEventFilter(this);
   setTextFormat(Qt::PlainText);
   hide();
 }
@@ -30,9 +36,17 @@ void HoverLabel::showAt(QPointF cursor) {
   const int right = qRound(cursor.x()) + kOffset;
   const int left = qRound(cursor.x()) - kOffset - width();
   const int below = qRound(cursor.y()) + kOffset;
-  move(right + width() <= parentWidget()->width() ? right : std::max(0, left),
-       std::min(below, std::max(0, parentWidget()->height() - height())));
+  const QPoint place(right + width() <= parentWidget()->width() ? right : std::max(0, left),
+                     std::min(below, std::max(0, parentWidget()->height() - height())));
+  move(parentWidget()->mapToGlobal(place));
   show();
+}
+
+bool HoverLabel::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Hide || event->type() == QEvent::WindowDeactivate) {
+    hide();
+  }
+  return QLabel::eventFilter(watched, event);
 }
 
 void HoverLabel::clearAll() {

@@ -6,7 +6,8 @@
 namespace stillframe::viewer {
 
 /// What is under the cursor, beside it: names of frames, one a line, and the thing that is drawn there. Lets the mouse
-/// through. GUI thread.
+/// through. A window of its own, as tool tips are: over an OpenGL widget a child that moves would have it draw a frame.
+/// GUI thread.
 class HoverLabel : public QLabel {
   Q_OBJECT
 
@@ -21,6 +22,10 @@ class HoverLabel : public QLabel {
   void showAt(QPointF cursor);
   /// Nothing to say any more.
   void clearAll();
+
+ protected:
+  /// Goes with its parent.
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   QStringList frames_;

@@ -9,8 +9,7 @@
 #include "nodes/registry.h"
 #include "scenegraph/pipeline/draw_times.h"
 #include "scenegraph/pipeline/gl_context_info.h"
-#include "viewer/pick/hover_label.h"
-#include "viewer/pick/view_picks.h"
+#include "viewer/pick/view_picker.h"
 #include "viewer/widget/gl_format.h"
 #include "viewer/widget/help_overlay.h"
 
@@ -34,12 +33,10 @@ QLabel* makeOverlay(QWidget* parent) {
 SceneWidget::SceneWidget(QWidget* parent)
     : QOpenGLWidget(parent),
       gate_([this] { applyTick(); }),
-      hover_gate_([this] { hoverThing(); }),
       message_(makeOverlay(this)),
-      hover_label_(new HoverLabel(this)),
       progress_label_(makeOverlay(this)),
       help_(new HelpOverlay(this)),
-      picks_(new ViewPicks(this)) {
+      picker_(new ViewPicker(*this)) {
   clock_.start();
   connect(this, &SceneWidget::cameraChanged, this, [this] { restored_.reset(); });
   setFormat(glFormat());
@@ -50,11 +47,8 @@ SceneWidget::SceneWidget(QWidget* parent)
   message_->setWordWrap(true);
   message_->setMargin(24);
   message_->setStyleSheet(QStringLiteral("color: #e8e8e8; background: #202226;"));
-  connect(picks_, &ViewPicks::changed, this, &SceneWidget::onPicksChanged);
-  for (QLabel* const label : {static_cast<QLabel*>(hover_label_), progress_label_}) {
-    label->setStyleSheet(
-        QStringLiteral("color: white; background: rgba(20, 22, 26, 200); border-radius: 3px; padding: 2px 5px;"));
-  }
+  progress_label_->setStyleSheet(
+      QStringLiteral("color: white; background: rgba(20, 22, 26, 200); border-radius: 3px; padding: 2px 5px;"));
 }
 
 SceneWidget::~SceneWidget() {
@@ -75,8 +69,7 @@ void SceneWidget::setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scene
   has_framed_data_ = false;
   camera_frame_.clear();
   selection_.reset();
-  hover_label_->clearAll();
-  picks_->clear();
+  picker_->clear();
   requestTick();
   update();
 }
@@ -176,7 +169,7 @@ void SceneWidget::paintGL() {
                     : tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(drawn.error().message)));
   ++frames_drawn_;
   showProgress();
-  placePicks();
+  picker_->place();
   if (keys_.isWalking() || camera_.isMoving(now()) || pointShare() < 1.0) {
     update();
   }

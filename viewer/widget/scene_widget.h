@@ -27,7 +27,7 @@ class QLabel;
 namespace stillframe::viewer {
 
 class HelpOverlay;
-class HoverLabel;
+class ViewPicker;
 class ViewPicks;
 struct PictureRequest;
 
@@ -79,16 +79,13 @@ class SceneWidget : public QOpenGLWidget {
   /// Whether Home, F, saved views and clicks in the frame tree glide there. On at first.
   void setSmoothMoves(bool enabled) { has_smooth_moves_ = enabled; }
   [[nodiscard]] bool hasSmoothMoves() const noexcept { return has_smooth_moves_; }
-
   void setSelection(const std::optional<Selection>& selection) { selection_ = selection; }
   [[nodiscard]] const std::optional<Selection>& selection() const noexcept { return selection_; }
 
-  /// What is drawn at a place of the widget, and near it, in the last frame. Draws no frame; a few milliseconds at
-  /// most.
+  /// What the last frame shows at a place of the widget, and near it. Draws no frame.
   std::expected<scenegraph::PickResult, scenegraph::PickError> pick(QPointF position);
   /// What clicks have picked and measured; what is picked is the selection.
-  [[nodiscard]] ViewPicks& picks() noexcept { return *picks_; }
-
+  [[nodiscard]] ViewPicks& picks() noexcept;
   [[nodiscard]] const std::vector<scenegraph::SavedView>& savedViews() const noexcept { return saved_views_; }
   void setSavedViews(std::vector<scenegraph::SavedView> views);
   /// Saves what is shown; a view of that name is replaced, without a name it becomes "View 1", "View 2", ...
@@ -98,7 +95,6 @@ class SceneWidget : public QOpenGLWidget {
   void setBackground(const scenegraph::Color& background);
   void setEffects(const scenegraph::ViewEffects& effects);
   [[nodiscard]] const scenegraph::ViewEffects& effects() const noexcept { return effects_; }
-
   /// Who draws opaque points (ViewPipeline::setPointWay).
   void setPointWay(scenegraph::PointWay way);
   /// A picture of what is shown, of any size, whole; blocks until it is drawn. "NotDrawn" before the first frame, and
@@ -110,7 +106,6 @@ class SceneWidget : public QOpenGLWidget {
   /// Milliseconds that each layer takes to draw by itself, in the scene's order; empty before the first frame. Draws
   /// the scene some times over, and blocks as long.
   [[nodiscard]] std::vector<std::optional<double>> measureDrawTimes();
-  /// Frames drawn since the widget was made.
   [[nodiscard]] std::uint64_t framesDrawn() const noexcept { return frames_drawn_; }
   /// OpenGL debug messages so far, over all contexts.
   [[nodiscard]] std::size_t glMessages() const noexcept { return gl_messages_ + debug_log_.count(); }
@@ -123,7 +118,6 @@ class SceneWidget : public QOpenGLWidget {
   void home();
   /// home() at once.
   void resetView();
-  /// Keys and gestures over the view, or away.
   void toggleHelp();
   /// All data in sight from the present direction.
   void frameAll();
@@ -152,7 +146,6 @@ class SceneWidget : public QOpenGLWidget {
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
-  void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void keyReleaseEvent(QKeyEvent* event) override;
@@ -170,20 +163,13 @@ class SceneWidget : public QOpenGLWidget {
   void walk();
   [[nodiscard]] scenegraph::Follow::Pose displayPose() const;
   [[nodiscard]] double now() const { return static_cast<double>(clock_.nsecsElapsed()) * 1e-9; }
-  void hover(QPointF position);
-  void hoverThing();
-  void click(QPointF position, bool measures);
-  void onPicksChanged();
-  void placePicks();
   void showProblem(const QString& text);
   void showProgress();
   [[nodiscard]] double aspect() const;
 
   UpdateGate gate_;
-  UpdateGate hover_gate_;
   scenegraph::GlDebugLog debug_log_;
-  std::size_t gl_messages_ = 0;      // of contexts that are gone
-  std::size_t logged_messages_ = 0;  // of debug_log_ that went to glLog
+  std::size_t gl_messages_ = 0, logged_messages_ = 0;  // of contexts that are gone; of debug_log_ that went to glLog
   std::unique_ptr<scenegraph::Scene> scene_;
   std::unique_ptr<scenegraph::ViewPipeline> pipeline_;
   scenegraph::ViewCamera camera_;
@@ -194,29 +180,21 @@ class SceneWidget : public QOpenGLWidget {
   CameraKeys keys_;
   QElapsedTimer clock_;
   double walked_s_ = 0.0;  // moment of the last step
-  bool has_smooth_moves_ = true;
-  bool glides_home_ = false;
+  bool has_smooth_moves_ = true, glides_home_ = false;
   scenegraph::Color background_{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
   scenegraph::ViewEffects effects_;
   scenegraph::PointWay point_way_ = scenegraph::PointWay::Auto;
   bool is_software_ = false;  // the OpenGL that draws
   tf::TimePoint time_;
-  bool wants_framing_ = true;
-  bool has_framed_data_ = false;
-  bool is_camera_touched_ = false;
+  bool wants_framing_ = true, has_framed_data_ = false, is_camera_touched_ = false;
   std::optional<scenegraph::ViewpointState> restored_;  // what restoreViewpoint() holds on to
   bool is_context_usable_ = false;
   std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
   std::uint64_t frames_drawn_ = 0;
   QMetaObject::Connection context_watch_;
-  QLabel* message_ = nullptr;
-  HoverLabel* hover_label_ = nullptr;
-  QLabel* progress_label_ = nullptr;
+  QLabel *message_ = nullptr, *progress_label_ = nullptr;
   HelpOverlay* help_ = nullptr;
-  ViewPicks* picks_ = nullptr;
-  QString hovered_frame_;
-  std::optional<QPointF> hovered_;  // the cursor over the view
-  QPointF pressed_;
+  ViewPicker* picker_ = nullptr;
 };
 
 }  // namespace stillframe::viewer

@@ -4,6 +4,7 @@
 
 #include "scenegraph/osg_box.h"
 #include "viewer/pick/hover_label.h"
+#include "viewer/pick/view_picker.h"
 #include "viewer/widget/scene_widget.h"
 
 namespace stillframe::viewer {
@@ -74,7 +75,7 @@ void SceneWidget::restoreViewpoint(const scenegraph::ViewpointState& state, bool
 
 void SceneWidget::setCameraKind(scenegraph::CameraKind kind) {
   camera_.setKind(kind, now());
-  hover_label_->hide();
+  picker_->label().hide();
   update();
   Q_EMIT cameraChanged();
 }
@@ -204,7 +205,7 @@ double SceneWidget::aspect() const {
 void SceneWidget::onCameraMoved() {
   is_camera_touched_ = true;
   wants_framing_ = false;
-  hover_label_->hide();
+  picker_->label().hide();
   update();
   Q_EMIT cameraChanged();
 }

@@ -3,9 +3,9 @@
 #include <QLabel>
 #include <QMouseEvent>
 #include <QWheelEvent>
-#include <cmath>
 
 #include "viewer/pick/hover_label.h"
+#include "viewer/pick/view_picker.h"
 #include "viewer/pick/view_picks.h"
 #include "viewer/widget/help_overlay.h"
 #include "viewer/widget/scene_widget.h"
@@ -14,7 +14,6 @@ namespace stillframe::viewer {
 namespace {
 
 constexpr double kWheelNotch = 120.0;  // eighths of a degree, as QWheelEvent counts
-constexpr double kStillPx = 3.0;       // device-independent pixels; farther is a drag
 
 }  // namespace
 
@@ -33,14 +32,12 @@ void SceneWidget::showEvent(QShowEvent* event) {
 
 void SceneWidget::mousePressEvent(QMouseEvent* event) {
   gestures_.press(event->button(), event->modifiers(), event->position());
-  pressed_ = event->position();
-  hovered_.reset();
-  hover_label_->clearAll();
+  picker_->press(event->position());
 }
 
 void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
   if (!gestures_.isDragging()) {
-    hover(event->position());
+    picker_->hover(event->position());
   } else if (gestures_.move(event->position(), size(), camera_, now())) {
     onCameraMoved();
   }
@@ -48,15 +45,9 @@ void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
 
 void SceneWidget::mouseReleaseEvent(QMouseEvent* event) {
   gestures_.release(event->button());
-  const QPointF moved = event->position() - pressed_;
-  if (event->button() == Qt::LeftButton && std::hypot(moved.x(), moved.y()) <= kStillPx) {
-    click(event->position(), event->modifiers().testFlag(Qt::ShiftModifier));
+  if (event->button() == Qt::LeftButton) {
+    picker_->release(event->position(), event->modifiers().testFlag(Qt::ShiftModifier));
   }
-}
-
-void SceneWidget::mouseDoubleClickEvent(QMouseEvent* event) {
-  // Means nothing of its own: the second press drags like the first.
-  mousePressEvent(event);
 }
 
 void SceneWidget::wheelEvent(QWheelEvent* event) {
@@ -81,7 +72,7 @@ void SceneWidget::keyPressEvent(QKeyEvent* event) {
   } else if (keys_.press(*event)) {
     if (!event->isAutoRepeat()) {
       walked_s_ = now();
-      hover_label_->hide();
+      picker_->label().hide();
       update();
     }
   } else {
@@ -134,7 +125,7 @@ bool SceneWidget::obey(CameraCommand command) {
       saveView();
       break;
     case ClearPicks:
-      picks_->clear();
+      picker_->picks().clear();
       break;
     case Help:
       toggleHelp();
@@ -220,10 +211,7 @@ bool SceneWidget::steer(CameraCommand command) {
 }
 
 void SceneWidget::leaveEvent(QEvent* event) {
-  hover_label_->clearAll();
-  hovered_.reset();
-  hovered_frame_.clear();
-  Q_EMIT frameHovered({});
+  picker_->leave();
   QOpenGLWidget::leaveEvent(event);
 }
 

@@ -1,0 +1,132 @@
+#include "viewer/pick/view_picker.h"
+
+#include <QElapsedTimer>
+#include <cmath>
+
+#include "scenegraph/camera/picking.h"
+#include "viewer/pick/hover_label.h"
+#include "viewer/pick/view_picks.h"
+#include "viewer/widget/scene_widget.h"
+
+namespace stillframe::viewer {
+namespace {
+
+constexpr double kHoverReach = 24.0;  // device-independent pixels, as the next two
+constexpr double kSamePlace = 4.0;
+constexpr double kStill = 3.0;   // farther is a drag
+constexpr int kMostHovered = 8;  // names in the label
+constexpr double kLongMs = 8.0;
+constexpr int kRestMs = 150;
+
+QString lineOf(const scenegraph::PickResult& result) {
+  const glm::dvec3& at = result.point_in_fixed;
+  const auto number = [](double metres) { return QString::number(metres, 'g', 6); };
+  return QStringLiteral("%1  %2 %3  (%4, %5, %6)")
+      .arg(QString::fromStdString(result.topic), QString::fromStdString(result.picked.kind),
+           QString::fromStdString(result.picked.id), number(at.x), number(at.y), number(at.z));
+}
+
+}  // namespace
+
+ViewPicker::ViewPicker(SceneWidget& view)
+    : QObject(&view), view_(view), picks_(new ViewPicks(&view)), label_(new HoverLabel(&view)), gate_([this] {
+        hoverThing();
+      }) {
+  rest_.setSingleShot(true);
+  rest_.setInterval(kRestMs);
+  connect(&rest_, &QTimer::timeout, this, &ViewPicker::hoverThing);
+  connect(picks_, &ViewPicks::changed, this, &ViewPicker::onPicksChanged);
+}
+
+void ViewPicker::press(QPointF position) {
+  pressed_ = position;
+  cursor_.reset();
+  label_->clearAll();
+}
+
+void ViewPicker::hover(QPointF position) {
+  scenegraph::Scene* const scene = view_.scene();
+  if (scene == nullptr) {
+    return;
+  }
+  const auto picks = scenegraph::pickFrames(scene->frames().buffer(), scene->frames().snapshot(), view_.shownView(),
+                                            {static_cast<double>(view_.width()), static_cast<double>(view_.height())},
+                                            {position.x(), position.y()}, kHoverReach, kMostHovered + 1);
+  const QString frame = picks.empty() ? QString() : QString::fromStdString(picks.front().frame);
+  // Frames whose origins fall on each other are all named, one below the other.
+  QStringList names;
+  for (const scenegraph::FramePick& pick : picks) {
+    if (pick.distance_px - picks.front().distance_px < kSamePlace) {
+      names << (names.size() < kMostHovered ? QString::fromStdString(pick.frame) : tr("..."));
+    }
+  }
+  label_->setFrames(names);
+  label_->showAt(position);
+  if (frame != frame_) {
+    frame_ = frame;
+    Q_EMIT view_.frameHovered(frame);
+  }
+  cursor_ = position;
+  if (last_ms_ > kLongMs) {
+    rest_.start();
+  } else {
+    gate_.request();
+  }
+}
+
+void ViewPicker::hoverThing() {
+  if (!cursor_ || !view_.isVisible()) {
+    return;
+  }
+  QElapsedTimer clock;
+  clock.start();
+  const auto result = view_.pick(*cursor_);
+  last_ms_ = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+  label_->setThing(result ? lineOf(*result) : QString());
+  label_->showAt(*cursor_);
+}
+
+void ViewPicker::release(QPointF position, bool measures) {
+  const QPointF moved = position - pressed_;
+  if (!(std::hypot(moved.x(), moved.y()) <= kStill)) {
+    return;
+  }
+  auto result = view_.pick(position);
+  if (result && measures) {
+    picks_->measureTo(std::move(*result));
+  } else if (result) {
+    picks_->select(std::move(*result));
+  } else if (!measures) {
+    picks_->select(std::nullopt);
+  }
+}
+
+void ViewPicker::leave() {
+  label_->clearAll();
+  cursor_.reset();
+  frame_.clear();
+  Q_EMIT view_.frameHovered({});
+}
+
+void ViewPicker::clear() {
+  label_->clearAll();
+  picks_->clear();
+  last_ms_ = 0.0;
+}
+
+/// F frames what was picked; the points go with their frames.
+void ViewPicker::onPicksChanged() {
+  const auto& picked = picks_->selected();
+  view_.setSelection(
+      picked ? std::optional(Selection{picked->frame, picked->picked.point_in_frame, picked->picked.radius_m})
+             : std::nullopt);
+  place();
+}
+
+void ViewPicker::place() {
+  if (view_.scene() != nullptr) {
+    picks_->place(*view_.scene(), view_.shownView());
+  }
+}
+
+}  // namespace stillframe::viewer

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <QObject>
+#include <QPointF>
+#include <QTimer>
+#include <optional>
+
+#include "viewer/widget/update_gate.h"
+
+namespace stillframe::viewer {
+
+class HoverLabel;
+class SceneWidget;
+class ViewPicks;
+
+/// What the mouse picks in one view: says what is under the cursor, selects what is clicked, measures with Shift.
+///
+/// Frames are named at once. The thing under the cursor is looked for when the event loop comes to it, for the latest
+/// place alone; where that has taken long (software OpenGL, millions of voxels), when the cursor rests. GUI thread.
+class ViewPicker : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit ViewPicker(SceneWidget& view);
+
+  [[nodiscard]] ViewPicks& picks() noexcept { return *picks_; }
+  [[nodiscard]] HoverLabel& label() noexcept { return *label_; }
+  void press(QPointF position);
+  void hover(QPointF position);
+  /// Of the left button: a click where the mouse has not moved since press().
+  void release(QPointF position, bool measures);
+  void leave();
+  /// Another dataset: nothing is picked.
+  void clear();
+  /// A frame is about to be shown.
+  void place();
+
+ private:
+  void hoverThing();
+  void onPicksChanged();
+
+  SceneWidget& view_;
+  ViewPicks* picks_ = nullptr;
+  HoverLabel* label_ = nullptr;
+  QString frame_;                  // hovered
+  std::optional<QPointF> cursor_;  // over the view, no button down
+  QPointF pressed_;
+  double last_ms_ = 0.0;  // that looking for the thing took
+  QTimer rest_;
+  UpdateGate gate_;
+};
+
+}  // namespace stillframe::viewer

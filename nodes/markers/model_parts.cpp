@@ -20,6 +20,7 @@ using scenegraph::TrianglePrimitive;
 
 constexpr double kReach_m = 1e12;
 constexpr double kLeastPlaceholder_m = 0.1;
+constexpr double kMostPlaceholder_m = 1.0;
 
 /// How a marker is named to people: a ROS marker by its namespace and number.
 std::string nameOf(const SceneEntity& entity) {
@@ -46,10 +47,11 @@ Look lookOf(const ModelPrimitive& model) {
 
 Look lookOf(const TrianglePrimitive& /*triangles*/) { return {}; }
 
-/// Edges of 1 m stand for what nobody knows the size of; 1 mm for a mesh in millimetres would not be seen.
+/// Nobody knows the size. Edges of the scale, but 1 mm for a mesh in millimetres would not be seen, and what is scaled
+/// up is small.
 Look placeholderLook(Look look) {
   for (int axis = 0; axis < 3; ++axis) {
-    look.scale[axis] = std::max(std::abs(look.scale[axis]), kLeastPlaceholder_m);
+    look.scale[axis] = std::clamp(std::abs(look.scale[axis]), kLeastPlaceholder_m, kMostPlaceholder_m);
   }
   return {look.scale, kPlaceholderColor, true};
 }
@@ -95,7 +97,7 @@ void ModelParts::add(const Primitive& primitive, std::size_t slot, const SceneEn
   if (model.failure && failed_++ == 0) {
     failure_ = model.failure;
     failure_->message =
-        nameOf(entity) + ": " + failure_->message + (model.is_placeholder ? "; a box of its scale stands for it" : "");
+        nameOf(entity) + ": " + failure_->message + (model.is_placeholder ? "; a box stands for it" : "");
   }
   const osg::ref_ptr<osg::MatrixTransform> place =
       new osg::MatrixTransform(osg::Matrixd::translate(toOsg(model.origin)) *

@@ -19,7 +19,7 @@ namespace stillframe::nodes {
 /// Models, and triangles with a texture, of the entities in one frame.
 ///
 /// A node for each, which shares its arrays with all that show the same mesh. What is missing or broken is a box of the
-/// size of its scale, and modelFailure() says why. A change makes the nodes anew. GUI thread.
+/// size of its scale, from 0.1 to 1 m, and failure() says why. A change makes the nodes anew. GUI thread.
 class ModelParts {
  public:
   using Entities = std::map<std::size_t, std::shared_ptr<const scenegraph::SceneEntity>>;

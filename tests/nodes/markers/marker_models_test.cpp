@@ -45,7 +45,7 @@ TEST_F(MarkerModels, DrawsEmbeddedMeshesAndNamesTheMissingOne) {
   entity.marker_namespace = "models";
   open(datasetOf(sceneOf({entity})), "map");
   const auto& other = add("/markers");
-  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 800) << "a box of the marker's scale stands for it";
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 500) << "a box of 1 m stands for it";
   EXPECT_EQ(other.status().code, "UnknownPackage");
   EXPECT_THAT(other.status().message, testing::AllOf(HasSubstr("the marker 7 of 'models'"),
                                                      HasSubstr("package://nowhere/at_all.stl"), HasSubstr("a box")));

@@ -5,6 +5,8 @@
 namespace stillframe::scenegraph {
 namespace {
 
+using namespace std::string_view_literals;
+
 std::string again(const std::string& text) {
   const auto root = parseXml(text);
   return root ? writeXml(*root) : root.error().code + ": " + root.error().message;
@@ -32,7 +34,7 @@ TEST(Xml, SpaceInValuesSurvives) {
 
 TEST(Xml, WhatXmlCannotHoldIsReplacedAndStaysSo) {
   XmlElement element{"a"};
-  element.set("k", std::string("\x01zero\0\xFF\xC3(\xED\xA0\x80|\xF4\x90\x80\x80|\xEF\xBF\xBE|\xC0\x80", 27));
+  element.set("k", std::string("\x01zero\0\xFF\xC3(\xED\xA0\x80|\xF4\x90\x80\x80|\xEF\xBF\xBE|\xC0\x80"sv));
   const std::string written = writeXml(element);
   EXPECT_NE(written.find("\xEF\xBF\xBDzero\xEF\xBF\xBD"), std::string::npos) << written;
   EXPECT_EQ(again(written), written);

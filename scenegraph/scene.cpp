@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 
 #include "scenegraph/near_names.h"
 
@@ -289,14 +290,17 @@ bool Scene::setBufferTexels(std::uint64_t texels) {
 }
 
 void Scene::updateLayers(tf::TimePoint time) {
-  const auto isOf = [](const LayerType* type) {
-    return [type](const std::unique_ptr<LayerSlot>& slot) { return slot->type == type; };
+  struct Count {
+    std::uint32_t all = 0;
+    std::uint32_t before = 0;  // of those updated so far
   };
-  for (auto slot = layers_.begin(); slot != layers_.end(); ++slot) {
-    const auto before = std::count_if(layers_.begin(), slot, isOf((*slot)->type));
-    const auto all = std::ranges::count_if(layers_, isOf((*slot)->type));
-    (*slot)->layer->update(
-        Tick{time, static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(all), buffer_texels_});
+  std::map<const LayerType*, Count> counts;
+  for (const auto& slot : layers_) {
+    ++counts[slot->type].all;
+  }
+  for (const auto& slot : layers_) {
+    Count& count = counts[slot->type];
+    slot->layer->update(Tick{time, count.before++, count.all, buffer_texels_});
   }
 }
 

@@ -1,5 +1,3 @@
-// OSG's headers take up OpenGL's, which declare their functions where this stands before them.
-#define GL_GLEXT_PROTOTYPES
 #include "scenegraph/pipeline/compute_points.h"
 
 #include <GL/gl.h>

@@ -1,6 +1,5 @@
 #include "scenegraph/pipeline/gl_context_info.h"
 
-#define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glext.h>
 

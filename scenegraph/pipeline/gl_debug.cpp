@@ -1,6 +1,5 @@
 #include "scenegraph/pipeline/gl_debug.h"
 
-#define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glext.h>
 

@@ -1,4 +1,4 @@
-# stillframe_test(NAME SOURCES ... LINKS ... LABELS ... [ENV ...]): a GoogleTest program, run by CTest.
+# stillframe_test(NAME SOURCES ... LINKS ... LABELS ... [ENV ...] [PRECOMPILED HEADERS...]): a GoogleTest program, run by CTest.
 # Labels: unit (no GL), gl (surfaceless EGL), golden, qt (needs an X display), data (needs ../shared/data), lint.
 #
 # Suites of label unit are listed test by test; those that bring up GL or Qt run as one CTest test a program, since
@@ -18,12 +18,14 @@ elseif(STILLFRAME_SANITIZE)
 endif()
 
 function(stillframe_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;LABELS;ENV" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;LABELS;ENV;PRECOMPILED" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   add_dependencies(stillframe_tests ${name})
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main GTest::gmock)
+  target_compile_options(${name} PRIVATE ${STILLFRAME_TEST_OPTIONS})
   target_compile_definitions(${name} PRIVATE "STILLFRAME_TEST_DATA=\"${STILLFRAME_TEST_DATA}\""
                              "STILLFRAME_SOURCE_DIR=\"${CMAKE_SOURCE_DIR}\"" "STILLFRAME_BINARY_DIR=\"${CMAKE_BINARY_DIR}\"")
+  stillframe_precompile(${name} "test_" ${ARG_PRECOMPILED})
   if(STILLFRAME_SANITIZE)
     set(ARG_LABELS sanitize)
   endif()

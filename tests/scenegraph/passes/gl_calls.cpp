@@ -3,7 +3,6 @@
 
 #include <dlfcn.h>
 
-#define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 
 namespace stillframe::scenegraph {

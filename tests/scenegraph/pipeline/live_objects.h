@@ -1,7 +1,5 @@
 #pragma once
 
-// Before OSG's headers, which bring the same ones without prototypes.
-#define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glext.h>
 

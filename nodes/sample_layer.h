@@ -25,9 +25,6 @@ class SampleLayer : public TopicLayer {
  public:
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override { return table_.specs(); }
   [[nodiscard]] scenegraph::SettingTexts settings() const override { return table_.texts(settings_); }
-  std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override {
-    return table_.apply(texts, settings_);
-  }
 
  protected:
   using Loader = scenegraph::SampleLoader<Product>;
@@ -55,6 +52,9 @@ class SampleLayer : public TopicLayer {
   /// work and return product() as long as it is under way.
   [[nodiscard]] virtual Shown drawnOf(const Shown& loaded) { return loaded; }
 
+  std::expected<void, scenegraph::SettingError> changeSettings(const scenegraph::SettingTexts& texts) override {
+    return table_.apply(texts, settings_);
+  }
   void open(const scenegraph::LayerContext& context) override {
     loader_.emplace(
         context, source_.type, topic(), source_.tag,

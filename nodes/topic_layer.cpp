@@ -40,7 +40,7 @@ void TopicLayer::detach() {
   context_.reset();
 }
 
-void TopicLayer::setVisible(bool visible) {
+void TopicLayer::changeVisible(bool visible) {
   visible_ = visible;
   if (!visible && context_) {
     leave();

@@ -25,7 +25,6 @@ class TopicLayer : public scenegraph::Layer {
   void attach(const scenegraph::LayerContext& context) final;
   void update(const scenegraph::Tick& tick) final;
   void detach() final;
-  void setVisible(bool visible) final;
   [[nodiscard]] bool isVisible() const final { return visible_; }
   [[nodiscard]] const scenegraph::Status& status() const final { return status_; }
   [[nodiscard]] std::string sourceFrame() const final { return held_frame_.value_or(""); }
@@ -36,6 +35,7 @@ class TopicLayer : public scenegraph::Layer {
   void collectNodes(std::vector<osg::Node*>& nodes) const final;
 
  protected:
+  void changeVisible(bool visible) final;
   /// fixed_from_data at the tick.
   using Placement = std::expected<tf::RigidTransform, tf::LookupFailure>;
   /// Where the data lies.

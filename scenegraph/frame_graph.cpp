@@ -2,11 +2,11 @@
 
 #include "scenegraph/buffer_patches.h"
 
-#include <algorithm>
+#include <array>
 #include <bit>
+#include <cstdint>
 #include <glm/gtc/type_ptr.hpp>
 #include <osg/Matrixd>
-#include <span>
 #include <utility>
 
 namespace stillframe::scenegraph {
@@ -15,9 +15,9 @@ namespace {
 constexpr osg::Node::NodeMask kShown = ~0U;
 
 /// The state must not depend on which of 0 and -0 was there before.
-bool isSameByBits(const osg::Matrixd& a, const osg::Matrixd& b) {
-  return std::ranges::equal(std::span(a.ptr(), 16), std::span(b.ptr(), 16), {}, std::bit_cast<std::uint64_t, double>,
-                            std::bit_cast<std::uint64_t, double>);
+bool isSameByBits(const tf::RigidTransform& a, const tf::RigidTransform& b) {
+  using Bits = std::array<std::uint64_t, 7>;
+  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
 }  // namespace
@@ -48,23 +48,26 @@ void FrameGraph::setTick(std::string_view fixed_frame, tf::TimePoint time) {
     snapshot_.revision = revision;
     snapshot_.root_from_frame.clear();
   }
+  const bool has_new_ids = ids_revision_ != snapshot_.revision;
+  ids_revision_ = snapshot_.revision;
   for (auto& [frame, node] : nodes_) {
-    pose(frame, *node.transform);
+    if (has_new_ids) {
+      node.id = idOf(frame);
+    }
+    pose(frame, node);
   }
 }
 
-void FrameGraph::pose(const std::string& frame, osg::MatrixTransform& node) {
-  const auto fixed_from_frame = fixedFromFrame(frame);
+void FrameGraph::pose(const std::string& frame, Node& node) {
+  const Pose fixed_from_frame = poseOf(frame, node.id);
   const osg::Node::NodeMask mask = fixed_from_frame ? kShown : 0U;
-  if (fixed_from_frame) {
-    const osg::Matrixd matrix(glm::value_ptr(tf::toMatrix(*fixed_from_frame)));
-    if (!isSameByBits(matrix, node.getMatrix())) {
-      node.setMatrix(matrix);
-      ++counts_.matrices_written;
-    }
+  if (fixed_from_frame && !isSameByBits(node.posed, *fixed_from_frame)) {
+    node.transform->setMatrix(osg::Matrixd(glm::value_ptr(tf::toMatrix(*fixed_from_frame))));
+    node.posed = *fixed_from_frame;
+    ++counts_.matrices_written;
   }
-  if (node.getNodeMask() != mask) {
-    node.setNodeMask(mask);
+  if (node.transform->getNodeMask() != mask) {
+    node.transform->setNodeMask(mask);
     ++counts_.masks_changed;
   }
 }
@@ -77,7 +80,8 @@ osg::MatrixTransform& FrameGraph::acquire(std::string_view frame) {
     node.transform->setName(found->first);
     node.transform->setDataVariance(osg::Object::DYNAMIC);
     node.transform->setNodeMask(0U);
-    pose(found->first, *node.transform);
+    node.id = idOf(found->first);
+    pose(found->first, node);
     root_->addChild(node.transform);
   }
   ++node.users;
@@ -98,12 +102,17 @@ osg::MatrixTransform* FrameGraph::node(std::string_view frame) const {
   return found == nodes_.end() ? nullptr : found->second.transform.get();
 }
 
-std::expected<tf::RigidTransform, tf::LookupFailure> FrameGraph::fixedFromFrame(std::string_view frame) const {
+tf::FrameId FrameGraph::idOf(std::string_view frame) const { return buffer_->findFrame(frame).value_or(tf::kNoFrame); }
+
+FrameGraph::Pose FrameGraph::fixedFromFrame(std::string_view frame) const {
   frame = tf::stripLeadingSlashes(frame);
+  return poseOf(frame, idOf(frame));
+}
+
+FrameGraph::Pose FrameGraph::poseOf(std::string_view frame, tf::FrameId source) const {
   if (is_ticked_ && !frame.empty() && frame == fixed_frame_) {
     return tf::RigidTransform{};
   }
-  const tf::FrameId source = buffer_->findFrame(frame).value_or(tf::kNoFrame);
   const auto failure = [&](tf::LookupError code) {
     return std::unexpected(tf::LookupFailure{.code = code,
                                              .target = snapshot_.root,

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <expected>
 #include <memory>
+#include <optional>
 #include <osg/Group>
 #include <osg/MatrixTransform>
 #include <osg/ref_ptr>
@@ -56,8 +57,13 @@ class FrameGraph {
   struct Node {
     osg::ref_ptr<osg::MatrixTransform> transform;
     std::size_t users = 0;
+    tf::FrameId id = tf::kNoFrame;  // in the buffer, as of ids_revision_
+    tf::RigidTransform posed{};     // what its matrix says
   };
-  void pose(const std::string& frame, osg::MatrixTransform& node);
+  using Pose = std::expected<tf::RigidTransform, tf::LookupFailure>;
+  void pose(const std::string& frame, Node& node);
+  [[nodiscard]] tf::FrameId idOf(std::string_view frame) const;
+  [[nodiscard]] Pose poseOf(std::string_view frame, tf::FrameId source) const;
 
   std::shared_ptr<const tf::TransformBuffer> buffer_;
   osg::ref_ptr<osg::Group> root_;
@@ -65,6 +71,7 @@ class FrameGraph {
   std::string fixed_frame_;
   tf::TimePoint time_;
   bool is_ticked_ = false;
+  std::optional<std::uint64_t> ids_revision_;  // of the buffer when the nodes' ids were looked up
   tf::Snapshot snapshot_;
   TickCounts counts_;
 };

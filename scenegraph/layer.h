@@ -73,7 +73,10 @@ class Layer {
   virtual void detach() = 0;
 
   /// Hidden layers hold no visible node, submit no work, and keep their settings.
-  virtual void setVisible(bool visible) = 0;
+  void setVisible(bool visible) {
+    changeVisible(visible);
+    ++settings_revision_;
+  }
   [[nodiscard]] virtual bool isVisible() const = 0;
 
   [[nodiscard]] virtual const Status& status() const = 0;
@@ -102,7 +105,22 @@ class Layer {
   [[nodiscard]] virtual std::vector<SettingSpec> settingSpecs() const = 0;
   [[nodiscard]] virtual SettingTexts settings() const = 0;
   /// Changes what `texts` names at the next update(); on error nothing is changed.
-  virtual std::expected<void, SettingError> applySettings(const SettingTexts& texts) = 0;
+  std::expected<void, SettingError> applySettings(const SettingTexts& texts) {
+    auto applied = changeSettings(texts);
+    settings_revision_ += applied ? 1 : 0;
+    return applied;
+  }
+  /// Equal numbers mean equal settings() and isVisible(): who asks every tick asks for no texts. Only ever grows.
+  [[nodiscard]] std::uint64_t settingsRevision() const noexcept { return settings_revision_; }
+
+ protected:
+  virtual void changeVisible(bool visible) = 0;
+  virtual std::expected<void, SettingError> changeSettings(const SettingTexts& texts) = 0;
+  /// Of a layer that has settings for what is in its data (namespaces, links), when there are others than before.
+  void noteOtherSettings() noexcept { ++settings_revision_; }
+
+ private:
+  std::uint64_t settings_revision_ = 0;
 };
 
 /// One row of the registry (nodes/registry.cpp): everything a view needs to offer a kind of layer.

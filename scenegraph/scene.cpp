@@ -265,8 +265,14 @@ bool Scene::update(tf::TimePoint time) {
   const bool had_pending = isPending();
   const bool had_new_work = has_new_work_->exchange(false);
   // Read before the tick: what arrives during it makes the next update differ.
-  Inputs inputs{time, fixedFrame(), dataset_->transforms()->revision(), dataset_->store().revision(), layers_revision_};
+  Inputs inputs{
+      time,           fixedFrame(), dataset_->transforms()->revision(), dataset_->store().revision(), layers_revision_,
+      layerSettings()};
   time_ = time;
+  if (shown_ == inputs && !had_new_work && !had_pending) {
+    return false;
+  }
+  ++ticks_;
   frames_.setTick(inputs.fixed_frame, time);
   updateLayers(time);
   if (const std::string settled = fixedFrame(); settled != inputs.fixed_frame) {
@@ -276,6 +282,10 @@ bool Scene::update(tf::TimePoint time) {
     updateLayers(time);
   }
   const bool has_new_settings = noteSettings();
+  inputs.layer_settings = layerSettings();  // data may have brought settings of its own
+  if (shown_) {
+    shown_->layer_settings = inputs.layer_settings;  // the texts say whether they differ
+  }
   const bool is_same = shown_ == inputs && !has_new_settings && !had_new_work && !had_pending;
   settings_revision_ += has_new_settings || !shown_ || shown_->layers_revision != layers_revision_ ? 1 : 0;
   shown_ = std::move(inputs);
@@ -308,13 +318,24 @@ bool Scene::noteSettings() {
   bool has_changed = shown_settings_.size() != layers_.size();
   shown_settings_.resize(layers_.size());
   for (std::size_t i = 0; i < layers_.size(); ++i) {
-    std::pair now(layers_[i]->layer->isVisible(), layers_[i]->layer->settings());
-    if (shown_settings_[i] != now) {
-      shown_settings_[i] = std::move(now);
-      has_changed = true;
+    const Layer& layer = *layers_[i]->layer;
+    ShownSettings& shown = shown_settings_[i];
+    if (shown.layer == &layer && shown.revision == layer.settingsRevision()) {
+      continue;
     }
+    ShownSettings now{&layer, layer.settingsRevision(), layer.isVisible(), layer.settings()};
+    has_changed = has_changed || now.is_visible != shown.is_visible || now.texts != shown.texts;
+    shown = std::move(now);
   }
   return has_changed;
+}
+
+std::uint64_t Scene::layerSettings() const {
+  std::uint64_t sum = 0;
+  for (const auto& slot : layers_) {
+    sum += slot->layer->settingsRevision();
+  }
+  return sum;
 }
 
 bool Scene::isPending() const {

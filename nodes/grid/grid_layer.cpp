@@ -142,7 +142,7 @@ void GridLayer::detach() {
   context_.reset();
 }
 
-void GridLayer::setVisible(bool visible) {
+void GridLayer::changeVisible(bool visible) {
   visible_ = visible;
   if (!visible && context_) {
     unhang();
@@ -163,7 +163,7 @@ std::vector<scenegraph::SettingSpec> GridLayer::settingSpecs() const { return ta
 
 scenegraph::SettingTexts GridLayer::settings() const { return table().texts(settings_); }
 
-std::expected<void, scenegraph::SettingError> GridLayer::applySettings(const scenegraph::SettingTexts& texts) {
+std::expected<void, scenegraph::SettingError> GridLayer::changeSettings(const scenegraph::SettingTexts& texts) {
   return table().apply(texts, settings_);
 }
 

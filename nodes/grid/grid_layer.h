@@ -35,7 +35,6 @@ class GridLayer final : public scenegraph::Layer {
   void attach(const scenegraph::LayerContext& context) override;
   void update(const scenegraph::Tick& tick) override;
   void detach() override;
-  void setVisible(bool visible) override;
   [[nodiscard]] bool isVisible() const override { return visible_; }
   [[nodiscard]] const scenegraph::Status& status() const override { return status_; }
   [[nodiscard]] scenegraph::LayerCounts counts() const override;
@@ -45,9 +44,10 @@ class GridLayer final : public scenegraph::Layer {
   void collectNodes(std::vector<osg::Node*>& nodes) const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
-  std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;
 
  private:
+  void changeVisible(bool visible) override;
+  std::expected<void, scenegraph::SettingError> changeSettings(const scenegraph::SettingTexts& texts) override;
   void hang();
   void unhang();
   void applyChanges();

@@ -181,7 +181,7 @@ scenegraph::SettingTexts LaserScanLayer::settings() const {
   return texts;
 }
 
-std::expected<void, scenegraph::SettingError> LaserScanLayer::applySettings(const scenegraph::SettingTexts& texts) {
+std::expected<void, scenegraph::SettingError> LaserScanLayer::changeSettings(const scenegraph::SettingTexts& texts) {
   scenegraph::SettingTexts own;
   scenegraph::SettingTexts of_clouds;
   const auto defaults = scanTable().texts({});
@@ -192,7 +192,7 @@ std::expected<void, scenegraph::SettingError> LaserScanLayer::applySettings(cons
   if (auto applied = scanTable().apply(own, changed); !applied) {
     return applied;
   }
-  if (auto applied = PointCloudLayer::applySettings(of_clouds); !applied) {
+  if (auto applied = PointCloudLayer::changeSettings(of_clouds); !applied) {
     return applied;
   }
   scan_settings_ = std::move(changed);

@@ -37,12 +37,12 @@ class LaserScanLayer final : public PointCloudLayer {
   [[nodiscard]] scenegraph::LayerCounts counts() const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
-  std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;
 
   /// A scan that claims to take longer is left as it is.
   static constexpr double kLongestScan_s = 10.0;
 
  private:
+  std::expected<void, scenegraph::SettingError> changeSettings(const scenegraph::SettingTexts& texts) override;
   void close() override;
   void clear() override;
   [[nodiscard]] Shown drawnOf(const Shown& loaded) override;

@@ -19,6 +19,7 @@ void MarkerPicture::clear() {
   }
   parts_.clear();
   shown_ = nullptr;
+  namespaces_revision_ += namespaces_.empty() ? 0 : 1;
   namespaces_.clear();
   free_.clear();
   entities_ = primitives_ = hidden_ = 0;
@@ -44,9 +45,11 @@ void MarkerPicture::count(const LiveEntity* entity, bool is_there) {
   }
   const auto change = [is_there](std::uint64_t& sum, std::uint64_t by) { is_there ? sum += by : sum -= by; };
   std::uint64_t& in_namespace = namespaces_[entity->marker_namespace];
+  namespaces_revision_ += in_namespace == 0 ? 1 : 0;
   change(in_namespace, 1);
   if (in_namespace == 0) {
     namespaces_.erase(entity->marker_namespace);
+    ++namespaces_revision_;
   }
   if (isShown(*entity)) {
     change(entities_, 1);

@@ -54,6 +54,8 @@ class MarkerPicture {
   void collectNodes(std::vector<osg::Node*>& nodes) const;
   /// Of the entities that are there, drawn or not.
   [[nodiscard]] std::set<std::string> namespaces() const;
+  /// Another number whenever they have become others.
+  [[nodiscard]] std::uint64_t namespacesRevision() const noexcept { return namespaces_revision_; }
   /// Frames that something is drawn in, in the order of their names.
   [[nodiscard]] std::vector<std::string> frames() const;
   [[nodiscard]] osg::BoundingBoxd boxIn(const std::string& frame) const;
@@ -80,6 +82,7 @@ class MarkerPicture {
   std::shared_ptr<const SceneState> shown_;
   std::map<std::string, std::unique_ptr<FrameParts>> parts_;
   std::map<std::string, std::uint64_t> namespaces_;
+  std::uint64_t namespaces_revision_ = 0;
   std::map<std::string, std::map<std::int64_t, std::uint64_t>> free_;  // by frame and log time: how many
   std::uint64_t entities_ = 0;
   std::uint64_t primitives_ = 0;

@@ -33,7 +33,7 @@ void MarkersLayer::detach() {
   context_.reset();
 }
 
-void MarkersLayer::setVisible(bool visible) {
+void MarkersLayer::changeVisible(bool visible) {
   visible_ = visible;
   if (!visible && context_) {
     clear();
@@ -51,6 +51,7 @@ void MarkersLayer::update(const scenegraph::Tick& tick) {
   if (!context_ || !visible_) {
     return;
   }
+  const std::uint64_t namespaces_before = picture_->namespacesRevision();
   tracker_->update(tick.time);
   if (tracker_->product() != nullptr) {
     picture_->show(tracker_->product(), settings_);
@@ -58,6 +59,9 @@ void MarkersLayer::update(const scenegraph::Tick& tick) {
     picture_->setModels(shelf_->models());
   } else {
     picture_->clear();
+  }
+  if (picture_->namespacesRevision() != namespaces_before) {
+    noteOtherSettings();
   }
   bounds_.init();
   for (const std::string& frame : picture_->frames()) {
@@ -192,7 +196,7 @@ scenegraph::SettingTexts MarkersLayer::settings() const {
   return markersSettingTexts(settings_, picture_ ? picture_->namespaces() : std::set<std::string>{});
 }
 
-std::expected<void, scenegraph::SettingError> MarkersLayer::applySettings(const scenegraph::SettingTexts& texts) {
+std::expected<void, scenegraph::SettingError> MarkersLayer::changeSettings(const scenegraph::SettingTexts& texts) {
   return applyMarkersSettings(texts, settings_);
 }
 

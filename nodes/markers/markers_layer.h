@@ -27,7 +27,6 @@ class MarkersLayer final : public scenegraph::Layer {
   void attach(const scenegraph::LayerContext& context) override;
   void update(const scenegraph::Tick& tick) override;
   void detach() override;
-  void setVisible(bool visible) override;
   [[nodiscard]] bool isVisible() const override { return visible_; }
   [[nodiscard]] const scenegraph::Status& status() const override { return status_; }
   /// "entities" and their "primitives", "hidden" entities of namespaces that are switched off, "draw_calls".
@@ -45,9 +44,10 @@ class MarkersLayer final : public scenegraph::Layer {
   void collectNodes(std::vector<osg::Node*>& nodes) const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
-  std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;
 
  private:
+  void changeVisible(bool visible) override;
+  std::expected<void, scenegraph::SettingError> changeSettings(const scenegraph::SettingTexts& texts) override;
   void clear();
   [[nodiscard]] scenegraph::Status judge(tf::TimePoint time) const;
   [[nodiscard]] scenegraph::Status remark(tf::TimePoint time) const;

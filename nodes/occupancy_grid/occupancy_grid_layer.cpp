@@ -162,7 +162,8 @@ std::vector<scenegraph::SettingSpec> OccupancyGridLayer::settingSpecs() const {
 
 scenegraph::SettingTexts OccupancyGridLayer::settings() const { return occupancyGridSettingsTable().texts(settings_); }
 
-std::expected<void, scenegraph::SettingError> OccupancyGridLayer::applySettings(const scenegraph::SettingTexts& texts) {
+std::expected<void, scenegraph::SettingError> OccupancyGridLayer::changeSettings(
+    const scenegraph::SettingTexts& texts) {
   return occupancyGridSettingsTable().apply(texts, settings_);
 }
 

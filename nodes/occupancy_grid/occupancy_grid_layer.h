@@ -29,9 +29,9 @@ class OccupancyGridLayer final : public TopicLayer {
   [[nodiscard]] std::optional<scenegraph::ColorLegend> legend() const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
-  std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;
 
  private:
+  std::expected<void, scenegraph::SettingError> changeSettings(const scenegraph::SettingTexts& texts) override;
   void open(const scenegraph::LayerContext& context) override;
   void close() override;
   void clear() override;

@@ -54,7 +54,7 @@ void RobotModelLayer::detach() {
   context_.reset();
 }
 
-void RobotModelLayer::setVisible(bool visible) {
+void RobotModelLayer::changeVisible(bool visible) {
   visible_ = visible;
   if (!visible && context_) {
     clear();
@@ -97,6 +97,7 @@ void RobotModelLayer::update(const scenegraph::Tick& tick) {
   const bool is_on_its_way = loader_->product() == nullptr && loader_->isPending();
   if (!is_on_its_way && loader_->product() != scene_) {
     show(loader_->product());
+    noteOtherSettings();
   }
   bounds_.init();
   if (scene_ != nullptr) {
@@ -369,7 +370,7 @@ scenegraph::SettingTexts RobotModelLayer::settings() const {
   return texts;
 }
 
-std::expected<void, scenegraph::SettingError> RobotModelLayer::applySettings(const scenegraph::SettingTexts& texts) {
+std::expected<void, scenegraph::SettingError> RobotModelLayer::changeSettings(const scenegraph::SettingTexts& texts) {
   RobotModelSettings changed = settings_;
   scenegraph::SettingTexts others = texts;
   if (const auto taken = takeLinkTexts(others, changed); !taken) {

@@ -36,7 +36,6 @@ class RobotModelLayer final : public scenegraph::Layer {
   void attach(const scenegraph::LayerContext& context) override;
   void update(const scenegraph::Tick& tick) override;
   void detach() override;
-  void setVisible(bool visible) override;
   [[nodiscard]] bool isVisible() const override { return visible_; }
   [[nodiscard]] const scenegraph::Status& status() const override { return status_; }
   /// "links", "placed" of them, "by_kinematics" of these, "meshes" of files, "missing_meshes", "triangles" drawn.
@@ -50,9 +49,10 @@ class RobotModelLayer final : public scenegraph::Layer {
   void collectNodes(std::vector<osg::Node*>& nodes) const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
-  std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;
 
  private:
+  void changeVisible(bool visible) override;
+  std::expected<void, scenegraph::SettingError> changeSettings(const scenegraph::SettingTexts& texts) override;
   /// A link in the graph.
   struct LinkNode {
     osg::ref_ptr<osg::MatrixTransform> node;

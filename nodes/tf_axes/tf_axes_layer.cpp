@@ -133,7 +133,7 @@ void TfAxesLayer::detach() {
   unit_line_ = nullptr;
 }
 
-void TfAxesLayer::setVisible(bool visible) {
+void TfAxesLayer::changeVisible(bool visible) {
   visible_ = visible;
   if (!visible && context_) {
     clear();
@@ -359,7 +359,7 @@ std::vector<scenegraph::SettingSpec> TfAxesLayer::settingSpecs() const { return 
 
 scenegraph::SettingTexts TfAxesLayer::settings() const { return table().texts(settings_); }
 
-std::expected<void, SettingError> TfAxesLayer::applySettings(const scenegraph::SettingTexts& texts) {
+std::expected<void, SettingError> TfAxesLayer::changeSettings(const scenegraph::SettingTexts& texts) {
   Settings changed = settings_;
   if (const auto applied = table().apply(texts, changed); !applied) {
     return applied;

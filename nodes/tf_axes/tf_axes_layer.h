@@ -48,7 +48,6 @@ class TfAxesLayer final : public scenegraph::Layer {
   void attach(const scenegraph::LayerContext& context) override;
   void update(const scenegraph::Tick& tick) override;
   void detach() override;
-  void setVisible(bool visible) override;
   [[nodiscard]] bool isVisible() const override { return visible_; }
   [[nodiscard]] const scenegraph::Status& status() const override { return status_; }
   /// Arranges the names, so that none covers another: of frames at one place they become one, line by line; of others
@@ -68,9 +67,10 @@ class TfAxesLayer final : public scenegraph::Layer {
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
   /// Refuses a frame_filter that is no regular expression.
-  std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;
 
  private:
+  void changeVisible(bool visible) override;
+  std::expected<void, scenegraph::SettingError> changeSettings(const scenegraph::SettingTexts& texts) override;
   /// What hangs beneath one frame's node.
   struct Shown {
     tf::FrameId id = tf::kNoFrame;

@@ -110,7 +110,7 @@ void FakeLayer::detach() {
   has_new_settings_ = true;
 }
 
-void FakeLayer::setVisible(bool visible) {
+void FakeLayer::changeVisible(bool visible) {
   is_visible_ = visible;
   has_new_settings_ = true;
   if (!visible && context_) {
@@ -140,7 +140,7 @@ std::vector<scenegraph::SettingSpec> FakeLayer::settingSpecs() const { return ta
 
 scenegraph::SettingTexts FakeLayer::settings() const { return table().texts(settings_); }
 
-std::expected<void, scenegraph::SettingError> FakeLayer::applySettings(const scenegraph::SettingTexts& texts) {
+std::expected<void, scenegraph::SettingError> FakeLayer::changeSettings(const scenegraph::SettingTexts& texts) {
   has_new_settings_ = true;
   return table().apply(texts, settings_);
 }

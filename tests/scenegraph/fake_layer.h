@@ -32,7 +32,6 @@ class FakeLayer final : public scenegraph::Layer {
   void attach(const scenegraph::LayerContext& context) override;
   void update(const scenegraph::Tick& tick) override;
   void detach() override;
-  void setVisible(bool visible) override;
   [[nodiscard]] bool isVisible() const override { return is_visible_; }
   [[nodiscard]] const scenegraph::Status& status() const override { return status_; }
   [[nodiscard]] scenegraph::LayerCounts counts() const override;
@@ -41,9 +40,10 @@ class FakeLayer final : public scenegraph::Layer {
   [[nodiscard]] osg::BoundingBoxd boundsInFixed() const override;
   [[nodiscard]] std::vector<scenegraph::SettingSpec> settingSpecs() const override;
   [[nodiscard]] scenegraph::SettingTexts settings() const override;
-  std::expected<void, scenegraph::SettingError> applySettings(const scenegraph::SettingTexts& texts) override;
 
  private:
+  void changeVisible(bool visible) override;
+  std::expected<void, scenegraph::SettingError> changeSettings(const scenegraph::SettingTexts& texts) override;
   void showPoints();
   void hangIn(const std::optional<std::string>& frame);
 

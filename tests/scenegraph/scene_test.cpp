@@ -47,6 +47,28 @@ TEST_F(SceneTest, SaysWhetherThePictureMayHaveChanged) {
   EXPECT_FALSE(scene.update({2_s}));
 }
 
+TEST_F(SceneTest, BringsLayersToATickOnlyWhereSomethingIsNew) {
+  scene.addDefaultLayers();
+  scene.update({1_s});
+  const std::uint64_t ticks = scene.ticks();
+  EXPECT_FALSE(scene.update({1_s}));
+  EXPECT_EQ(scene.ticks(), ticks);
+  const std::uint64_t settings = scene.settingsRevision();
+  Layer& layer = *scene.findLayer("/points")->layer;
+  ASSERT_TRUE(layer.applySettings(layer.settings()));
+  EXPECT_FALSE(scene.update({1_s})) << "the same settings again";
+  EXPECT_EQ(scene.ticks(), ticks + 1);
+  EXPECT_EQ(scene.settingsRevision(), settings);
+  ASSERT_FALSE(layer.applySettings({{"no such setting", "1"}}));
+  scene.update({1_s});
+  EXPECT_EQ(scene.ticks(), ticks + 1) << "what is refused changes nothing";
+  layer.setVisible(false);
+  layer.setVisible(true);
+  scene.update({1_s});
+  EXPECT_EQ(scene.ticks(), ticks + 2) << "it has to show what it was made to drop";
+  EXPECT_TRUE(scene.boundsInFixed().valid());
+}
+
 TEST_F(SceneTest, AnUpdateAfterBackgroundWorkShowsItsResult) {
   const auto pool = makeThreadPoolExecutor(1);
   std::atomic<int> requests = 0;

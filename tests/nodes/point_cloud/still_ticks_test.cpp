@@ -1,44 +1,14 @@
 // What a tick leaves alone: counted in the graph itself, whoever might have touched it.
-#include <osg/Geometry>
-#include <osg/NodeVisitor>
-#include <osg/Uniform>
-
 #include "tests/nodes/scene_picture.h"
+#include "tools/bench/graph_writes.h"
 
 namespace stillframe::test {
 namespace {
 
+using bench::GraphWrites;
 using scenegraph::ObjectType;
 
 constexpr int kLayers = 12;
-
-/// How often anything beneath a node was written that a frame would take to the driver.
-class Writes : public osg::NodeVisitor {
- public:
-  explicit Writes(osg::Node& root) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { root.accept(*this); }
-
-  void apply(osg::Node& node) override {
-    if (const osg::StateSet* const state = node.getStateSet()) {
-      for (const auto& [name, uniform] : state->getUniformList()) {
-        uniforms += uniform.first->getModifiedCount();
-      }
-    }
-    traverse(node);
-  }
-  void apply(osg::Geometry& geometry) override {
-    osg::Geometry::ArrayList all;
-    geometry.getArrayList(all);
-    for (const auto& array : all) {
-      arrays += array->getModifiedCount();
-      addresses ^= reinterpret_cast<std::uintptr_t>(array->getDataPointer());
-    }
-    apply(static_cast<osg::Node&>(geometry));
-  }
-
-  std::size_t uniforms = 0;
-  std::size_t arrays = 0;
-  std::uintptr_t addresses = 0;
-};
 
 class StillTicks : public ScenePictureTest {
  protected:
@@ -69,10 +39,10 @@ class StillTicks : public ScenePictureTest {
 
 TEST_F(StillTicks, WriteNothingWhereNothingMoved) {
   openClouds({{"color_field", "intensity"}});
-  const Writes before(scene_->root());
+  const GraphWrites before(scene_->root());
   EXPECT_GT(before.uniforms, 0U);
   scene_->update(tf::TimePoint{1_s + 1_ms});  // another time, and the same samples of everything
-  const Writes after(scene_->root());
+  const GraphWrites after(scene_->root());
   EXPECT_EQ(scene_->frames().lastTick().matrices_written, 0U);
   EXPECT_EQ(scene_->frames().lastTick().masks_changed, 0U);
   EXPECT_EQ(after.uniforms, before.uniforms);
@@ -82,9 +52,9 @@ TEST_F(StillTicks, WriteNothingWhereNothingMoved) {
 
 TEST_F(StillTicks, WriteOneMatrixWhereOneFrameMoved) {
   openClouds({{"color_field", "intensity"}});
-  const Writes before(scene_->root());
+  const GraphWrites before(scene_->root());
   scene_->update(tf::TimePoint{2_s});
-  const Writes after(scene_->root());
+  const GraphWrites after(scene_->root());
   EXPECT_EQ(scene_->frames().lastTick().matrices_written, 1U);
   EXPECT_EQ(after.uniforms, before.uniforms);
   EXPECT_EQ(after.arrays, before.arrays);
@@ -92,9 +62,9 @@ TEST_F(StillTicks, WriteOneMatrixWhereOneFrameMoved) {
 
 TEST_F(StillTicks, WriteOneUniformWhereAnAxisGivesTheColour) {
   openClouds({{"color_field", "z"}, {"range_mode", "manual"}, {"range_min", "-5"}, {"range_max", "5"}});
-  const Writes before(scene_->root());
+  const GraphWrites before(scene_->root());
   scene_->update(tf::TimePoint{2_s});
-  EXPECT_EQ(Writes(scene_->root()).uniforms, before.uniforms + 1) << "the height of the one that moved";
+  EXPECT_EQ(GraphWrites(scene_->root()).uniforms, before.uniforms + 1) << "the height of the one that moved";
 }
 
 }  // namespace

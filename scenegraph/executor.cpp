@@ -1,5 +1,8 @@
 #include "scenegraph/executor.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
@@ -13,6 +16,7 @@ namespace {
 class SynchronousExecutor : public Executor {
  public:
   void submit(std::function<void()> job) override { job(); }
+  void submitSpare(std::function<void()> /*job*/) override {}
   void drain() override {}
 };
 
@@ -22,6 +26,7 @@ class ThreadPoolExecutor : public Executor {
     for (unsigned i = 0; i < std::max(threads, 1U); ++i) {
       threads_.emplace_back([this] { work(); });
     }
+    threads_.emplace_back([this] { workInSpareTime(); });
   }
   ~ThreadPoolExecutor() override {
     {
@@ -29,6 +34,7 @@ class ThreadPoolExecutor : public Executor {
       is_ending_ = true;
     }
     wake_.notify_all();
+    spare_wake_.notify_all();
     for (std::thread& thread : threads_) {
       thread.join();
     }
@@ -40,6 +46,13 @@ class ThreadPoolExecutor : public Executor {
       ++unfinished_;
     }
     wake_.notify_one();
+  }
+  void submitSpare(std::function<void()> job) override {
+    {
+      const std::scoped_lock lock(mutex_);
+      spare_jobs_.push_back(std::move(job));
+    }
+    spare_wake_.notify_one();
   }
   void drain() override {
     std::unique_lock lock(mutex_);
@@ -62,14 +75,36 @@ class ThreadPoolExecutor : public Executor {
       lock.lock();
       if (--unfinished_ == 0) {
         idle_.notify_all();
+        spare_wake_.notify_one();
       }
     }
   }
 
-  std::mutex mutex_;  // guards jobs_, unfinished_, is_ending_
+  void workInSpareTime() {
+    // Of this thread alone, on Linux: the picture and what is wanted now go before what may be wanted.
+    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kLowestPriority);
+    std::unique_lock lock(mutex_);
+    while (true) {
+      spare_wake_.wait(lock, [this] { return is_ending_ || (!spare_jobs_.empty() && unfinished_ == 0); });
+      if (is_ending_) {
+        return;
+      }
+      std::function<void()> job = std::move(spare_jobs_.front());
+      spare_jobs_.pop_front();
+      lock.unlock();
+      job();
+      job = nullptr;
+      lock.lock();
+    }
+  }
+
+  static constexpr int kLowestPriority = 19;
+  std::mutex mutex_;  // guards jobs_, spare_jobs_, unfinished_, is_ending_
   std::condition_variable wake_;
+  std::condition_variable spare_wake_;
   std::condition_variable idle_;
   std::deque<std::function<void()>> jobs_;
+  std::deque<std::function<void()>> spare_jobs_;
   std::size_t unfinished_ = 0;
   bool is_ending_ = false;
   std::vector<std::thread> threads_;

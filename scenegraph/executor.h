@@ -12,13 +12,17 @@ class Executor {
   virtual ~Executor() = default;
   /// Runs `job` some time, or at once. Any thread.
   virtual void submit(std::function<void()> job) = 0;
-  /// Returns when every job submitted so far has run. Not from within a job.
+  /// Runs `job` when nothing else is to be done, or never. Any thread.
+  virtual void submitSpare(std::function<void()> job) = 0;
+  /// Returns when every job of submit() so far has run. Not from within a job.
   virtual void drain() = 0;
 };
 
-/// Runs each job inside submit(): tests and headless rendering, where the first picture must be the complete one.
+/// Runs each job inside submit(), and no spare one: tests and headless rendering, where the first picture must be the
+/// complete one.
 [[nodiscard]] std::unique_ptr<Executor> makeSynchronousExecutor();
-/// `threads` workers, at least one; the destructor runs what is queued to its end.
+/// `threads` workers, at least one, and one more of the lowest priority for spare jobs, each of which begins while the
+/// others have nothing to do. The destructor runs what is queued to its end, spare jobs not.
 [[nodiscard]] std::unique_ptr<Executor> makeThreadPoolExecutor(unsigned threads);
 
 }  // namespace stillframe::scenegraph

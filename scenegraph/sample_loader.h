@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <expected>
 #include <functional>
 #include <memory>
@@ -9,6 +11,7 @@
 
 #include "scenegraph/latest_job.h"
 #include "scenegraph/layer.h"
+#include "scenegraph/read_ahead.h"
 #include "scenegraph/sample_work.h"
 #include "scenegraph/status.h"
 #include "scenegraph/store/dataset.h"
@@ -20,7 +23,8 @@ namespace stillframe::scenegraph {
 ///
 /// The one decoding pattern of all layers (REQUIREMENTS C3): product in the cache? else decode, convert and cache it on
 /// the executor, latest wins; a tick that resolves to the sample already shown does nothing; a failed sample clears the
-/// view and is never tried again. While a sample is under way the one before stays, and status() says so.
+/// view and is never tried again. While a sample is under way the one before stays, and status() says so. Where the
+/// executor has time to spare, the sample that comes next in the direction of play is made ready.
 ///
 /// ```cpp
 /// loader_.emplace(context, ObjectType::PointCloud, topic_, "points", [](const AnyObject& object, const Entry&) {
@@ -45,6 +49,7 @@ class SampleLoader {
         shared_(std::make_shared<const Shared>(
             Shared{context.dataset.shared_from_this(), type, topic_name_, std::move(tag), std::move(convert)})),
         is_reference_(std::move(is_reference)),
+        ahead_(context.executor),
         sample_job_(context.executor, context.request_update),
         reference_job_(context.executor, context.request_update) {}
 
@@ -53,6 +58,7 @@ class SampleLoader {
     const auto entry = entryAt(time);
     if (!entry) {
       sample_job_.cancel();
+      ahead_.forget();
       return show(std::nullopt, nullptr, noMessage(time));
     }
     const CacheKey key = cacheKey(*topic_, *entry, shared_->tag);
@@ -79,6 +85,7 @@ class SampleLoader {
     }
     shown_key_ = key;
     shown_status_ = {};
+    readAhead(*entry, product->byteSize());
     return show(entry, std::move(product), {});
   }
 
@@ -131,6 +138,19 @@ class SampleLoader {
   std::optional<Entry> entryAt(tf::TimePoint time) {
     return findTopic() ? shared_->dataset->store().newestAtOrBefore(*topic_, time) : std::nullopt;
   }
+  void readAhead(const Entry& shown, std::size_t bytes) {
+    constexpr std::size_t kOfAKind = 4;  // ahead, shown, shown before, reference
+    const ObjectStore& store = shared_->dataset->store();
+    const auto place = static_cast<std::int64_t>(store.countAtOrBefore(*topic_, shown.log_time)) - 1;
+    const std::int64_t next = placeAhead(std::exchange(place_, place).value_or(place), place);
+    const bool has_room = bytes <= shared_->dataset->cache().maxBytes() / kOfAKind;
+    const auto entry = next >= 0 && has_room ? store.at(*topic_, static_cast<std::size_t>(next)) : std::nullopt;
+    if (!entry) {
+      return ahead_.forget();
+    }
+    ahead_.request(cacheKey(*topic_, *entry, shared_->tag),
+                   [shared = shared_, topic = *topic_, entry = *entry] { shared->tryLoad(topic, entry); });
+  }
   [[nodiscard]] Status noMessage(tf::TimePoint time) const {
     if (!topic_) {
       return {StatusLevel::Warn, "NoTopic",
@@ -171,6 +191,8 @@ class SampleLoader {
   std::shared_ptr<const Product> product_;
   Status status_{StatusLevel::Warn, "NoMessage", ""};
   std::optional<Scan> scan_;
+  std::optional<std::int64_t> place_;  // of what was shown last, among the entries of the topic
+  ReadAhead ahead_;
   LatestJob<Product> sample_job_;
   LatestJob<Scan> reference_job_;
 };

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <expected>
 #include <functional>
 #include <memory>
@@ -59,11 +60,19 @@ struct SampleWork {
     dataset->cache().put(key, product, product->byteSize());
     return product;
   }
+  /// load() for who may want it later: what fails, fails again when it is wanted, and says so then.
+  void tryLoad(TopicId topic, const Entry& entry) const noexcept {
+    try {
+      if (dataset->cache().template peek<Product>(cacheKey(topic, entry, tag)) == nullptr) {
+        (void)load(topic, entry);
+      }
+    } catch (const std::exception&) {  // as above
+    }
+  }
   /// The first product from entry `first` on, before entry `count`, that `accept` takes.
   [[nodiscard]] std::expected<std::shared_ptr<const SampleScan<Product>>, Status> scan(
       TopicId topic, std::size_t first, std::size_t count, const std::function<bool(const Product&)>& accept) const {
     auto scan = std::make_shared<SampleScan<Product>>();
-
     scan->looked = first;
     while (scan->looked < count && scan->product == nullptr) {
       const auto entry = dataset->store().at(topic, scan->looked);

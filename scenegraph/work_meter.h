@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "scenegraph/executor.h"
 
@@ -16,6 +17,7 @@ class WorkMeter final : public Executor {
   explicit WorkMeter(Executor& inner) : inner_(inner), last_ns_(std::make_shared<std::atomic<std::int64_t>>(-1)) {}
 
   void submit(std::function<void()> job) override;
+  void submitSpare(std::function<void()> job) override { inner_.submitSpare(std::move(job)); }
   void drain() override { inner_.drain(); }
   /// Of the job that ended last; nullopt before the first has.
   [[nodiscard]] std::optional<double> lastMs() const;

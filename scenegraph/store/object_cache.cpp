@@ -85,6 +85,11 @@ void ObjectCache::evict(std::list<Item>& dropped) {
   }
 }
 
+std::size_t ObjectCache::maxBytes() const {
+  const std::scoped_lock lock(mutex_);
+  return max_bytes_;
+}
+
 std::size_t ObjectCache::bytes() const {
   const std::scoped_lock lock(mutex_);
   return bytes_;

@@ -64,6 +64,7 @@ class ObjectCache {
   /// Keeps a product; replaces an older one of the same key.
   void put(const CacheKey& key, std::shared_ptr<const void> product, std::size_t bytes);
   void setMaxBytes(std::size_t max_bytes);
+  [[nodiscard]] std::size_t maxBytes() const;
   [[nodiscard]] std::size_t bytes() const;
   [[nodiscard]] std::uint64_t hits() const;
   [[nodiscard]] std::uint64_t misses() const;

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <condition_variable>
+#include <mutex>
 #include <thread>
 
 namespace stillframe::scenegraph {
@@ -47,6 +49,31 @@ TEST(ThreadPoolExecutor, WhatAJobOwnsIsGoneAfterDrain) {
   executor->submit([owned = std::move(owned)] { EXPECT_EQ(*owned, 1); });
   executor->drain();
   EXPECT_TRUE(watched.expired());
+}
+
+TEST(ThreadPoolExecutor, RunsSpareJobsOnlyWhileThereIsNothingElse) {
+  std::mutex mutex;  // guards the rest
+  std::condition_variable changed;
+  bool may_go = false;
+  bool has_spared = false;
+  const auto pool = makeThreadPoolExecutor(1);
+  pool->submit([&] {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return may_go; });
+  });
+  pool->submitSpare([&] {
+    const std::scoped_lock lock(mutex);
+    EXPECT_TRUE(may_go) << "ran beside what is wanted now";
+    has_spared = true;
+    changed.notify_all();
+  });
+  {
+    const std::scoped_lock lock(mutex);
+    may_go = true;
+  }
+  changed.notify_all();
+  std::unique_lock lock(mutex);
+  changed.wait(lock, [&] { return has_spared; });
 }
 
 }  // namespace

@@ -18,6 +18,15 @@ using namespace tf::literals;
 class ManualExecutor : public Executor {
  public:
   void submit(std::function<void()> job) override { jobs_.push_back(std::move(job)); }
+  void submitSpare(std::function<void()> job) override { spare_jobs_.push_back(std::move(job)); }
+  /// Runs the spare jobs; how many there were.
+  std::size_t idle() {
+    const std::size_t count = spare_jobs_.size();
+    for (; !spare_jobs_.empty(); spare_jobs_.pop_front()) {
+      std::thread(spare_jobs_.front()).join();
+    }
+    return count;
+  }
   void drain() override {
     while (!jobs_.empty()) {
       auto job = std::move(jobs_.front());
@@ -29,6 +38,7 @@ class ManualExecutor : public Executor {
 
  private:
   std::deque<std::function<void()>> jobs_;
+  std::deque<std::function<void()>> spare_jobs_;
 };
 
 struct Width {
@@ -257,6 +267,58 @@ TEST(LatestJob, OnAPoolOnlyTheLatestResultIsTaken) {
   EXPECT_EQ(**outcome->result, 200);
   EXPECT_GE(wakes, 1);
   EXPECT_FALSE(job.isPending());
+}
+
+TEST_F(SampleLoaderTest, MakesTheNextSampleOfTheDirectionOfPlayWhenThereIsTime) {
+  for (std::uint32_t i = 1; i <= 9; ++i) {
+    builder.at(i * 1_s, cloudOf(i));
+  }
+  auto played = loader(later);
+  const auto show = [&](std::int64_t time_ns) {
+    played.update(tf::TimePoint{time_ns});
+    const bool is_there = played.status().level == StatusLevel::Ok;
+    later.drain();
+    played.update(tf::TimePoint{time_ns});
+    EXPECT_EQ(played.product()->width, static_cast<std::uint32_t>(time_ns / (1_s)));
+    return is_there;
+  };
+  EXPECT_FALSE(show(2_s));
+  EXPECT_EQ(later.idle(), 1U);
+  EXPECT_TRUE(show(3_s)) << "forwards";
+  EXPECT_EQ(builder.source().decodeCount(), 2U);
+  later.idle();
+  EXPECT_TRUE(show(2_s)) << "was here before";
+  later.idle();
+  EXPECT_TRUE(show(1_s)) << "backwards";
+  EXPECT_EQ(later.idle(), 0U) << "there is nothing before it";
+  EXPECT_FALSE(show(5_s)) << "a jump";
+  later.idle();
+  EXPECT_TRUE(show(9_s)) << "and one as wide";
+}
+
+TEST_F(SampleLoaderTest, MakesOnlyTheLatestOfWhatWaitsToBeMadeAhead) {
+  for (std::uint32_t i = 1; i <= 9; ++i) {
+    builder.at(i * 1_s, cloudOf(i));
+  }
+  auto played = loader(later);
+  for (std::int64_t second = 1; second <= 4; ++second) {
+    played.update(tf::TimePoint{second * 1_s});
+    later.drain();
+    played.update(tf::TimePoint{second * 1_s});
+  }
+  EXPECT_EQ(builder.source().decodeCount(), 4U);
+  EXPECT_EQ(later.idle(), 4U);
+  EXPECT_EQ(builder.source().decodeCount(), 5U);
+}
+
+TEST_F(SampleLoaderTest, MakesNothingAheadForWhichTheCacheHasNoRoom) {
+  builder.at(1_s, cloudOf(1)).at(2_s, cloudOf(2));
+  builder.raw()->cache().setMaxBytes(2 * sizeof(Width));
+  auto played = loader(later);
+  played.update(tf::TimePoint{1_s});
+  later.drain();
+  played.update(tf::TimePoint{1_s});
+  EXPECT_EQ(later.idle(), 0U);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "scenegraph/pick/scene_pick.h"
 #include "scenegraph/pipeline/offscreen_renderer.h"
+#include "tools/accuracy/accuracy.h"
 #include "tools/cli/bench_results.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/json_text.h"
@@ -24,6 +25,7 @@ namespace {
 struct BenchOptions {
   std::string file;
   std::vector<std::string> only;
+  std::vector<std::string> table;
   bool is_scrub = false;
   bool is_json = false;
 };
@@ -177,7 +179,8 @@ void print(const std::vector<BenchResult>& results, const Machine& machine) {
 Json toJson(const std::vector<BenchResult>& results, const Machine& machine) {
   Json json{
       {"processor", machine.processor}, {"cores", machine.cores},     {"memcpy_mb_per_s", machine.memcpy_mb_per_s},
-      {"renderer", machine.renderer},   {"version", machine.version}, {"results", Json::array()}};
+      {"renderer", machine.renderer},   {"version", machine.version}, {"date", accuracy::dateOfToday()},
+      {"results", Json::array()}};
   for (const BenchResult& result : results) {
     Json row{{"name", result.name}, {"value", result.value}, {"unit", result.unit}};
     if (result.at_most) {
@@ -214,6 +217,14 @@ Result<void> benchFile(std::string file, std::vector<BenchResult>& results, std:
 }
 
 Result<void> runBench(const BenchOptions& options) {
+  if (!options.table.empty()) {
+    const auto table = benchTable(options.table);
+    if (!table) {
+      return std::unexpected(table.error());
+    }
+    std::fputs(table->c_str(), stdout);
+    return {};
+  }
   const auto isChosen = [&](const char* name) {
     return !options.is_scrub && (options.only.empty() || std::ranges::find(options.only, name) != options.only.end());
   };
@@ -267,6 +278,8 @@ Command addBenchCommand(CLI::App& app) {
       ->allow_extra_args(false);
   app.add_flag("--scrub", options->is_scrub, "Drag the slider of FILE there and back, and nothing else");
   app.add_flag("--json", options->is_json, "One JSON object instead of a table");
+  app.add_option("--table", options->table,
+                 "Measure nothing: print these files, written with --json, as a Markdown table");
   return [options] { return runBench(*options); };
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <chrono>
 #include <optional>
@@ -35,6 +37,12 @@ double bestSecondsOf(int calls, const Function& function) {
     best = std::min(best, secondsOf(function));
   }
   return best;
+}
+
+/// Memory that the program has taken from the heap and not given back.
+[[nodiscard]] inline double heapMib() {
+  const auto info = ::mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd) / (1024.0 * 1024.0);
 }
 
 /// Value below which `fraction` of the sorted values lie; not of none.
@@ -73,5 +81,8 @@ void benchTicks(std::vector<BenchResult>& results);
 [[nodiscard]] Result<void> benchViews(const std::string& file, std::vector<BenchResult>& results);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
+
+/// What earlier runs have printed with --json as one table in Markdown, a column a file, by the files' names.
+[[nodiscard]] Result<std::string> benchTable(const std::vector<std::string>& files);
 
 }  // namespace stillframe::cli

@@ -1,5 +1,3 @@
-#include <malloc.h>
-
 #include <array>
 #include <memory>
 #include <random>
@@ -21,12 +19,6 @@ constexpr int kWidth_px = 640;
 constexpr int kHeight_px = 360;
 constexpr int kTimes = 20;
 constexpr int kFrames = 5;
-
-/// Bytes that the program has taken from the heap and not given back.
-double heapMib() {
-  const auto info = mallinfo2();
-  return static_cast<double>(info.uordblks + info.hblkhd) / (1024.0 * 1024.0);
-}
 
 /// One view without a widget: what is a view's own.
 struct BenchView {

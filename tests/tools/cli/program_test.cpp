@@ -231,5 +231,30 @@ TEST(Program, SaysThatTheDisplayDoesNotAnswer) {
   EXPECT_THAT(failed.err, HasSubstr("':31999' does not answer"));
 }
 
+TEST(Bench, PrintsWhatEarlierRunsMeasuredSideBySide) {
+  const TestFolder folder;
+  const auto run_of = [](const std::string& results) {
+    return R"({"processor": "P", "cores": 2, "memcpy_mb_per_s": 9000.0, "renderer": "R", "version": "1", "date": "D",
+               "results": [)" +
+           results + "]}";
+  };
+  const std::string before = folder.makeFile(
+      "before.json",
+      run_of(R"({"name": "tick", "value": 16.25, "unit": "ms"}, {"name": "gone", "value": 3, "unit": ""})"));
+  const std::string after =
+      folder.makeFile("after.json", run_of(R"({"name": "tick", "value": 0.0123, "unit": "ms", "at_most": 0.1})"));
+  const Outcome outcome = run(folder.path(), {"bench", "--table", before, after});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out,
+            "- before: P, 2 cores, memcpy 9000 MB/s; R; stillframe 1; D\n"
+            "- after: P, 2 cores, memcpy 9000 MB/s; R; stillframe 1; D\n\n"
+            "| what | before | after | target |\n|---|--:|--:|---|\n"
+            "| tick (ms) | 16.25 | 0.0123 | at most 0.1 |\n"
+            "| gone | 3 |  |  |\n");
+  const Outcome refused = run(folder.path(), {"bench", "--table", folder.makeFile("no.json", "[]")});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_NE(refused.err.find("no.json"), std::string::npos) << refused.err;
+}
+
 }  // namespace
 }  // namespace stillframe::cli

@@ -12,6 +12,7 @@
 #include "nodes/topic_layer.h"
 #include "scenegraph/sample_loader.h"
 #include "scenegraph/settings.h"
+#include "scenegraph/store/message_origin.h"
 
 namespace stillframe::nodes {
 
@@ -37,6 +38,8 @@ class SampleLayer : public TopicLayer {
     typename Loader::IsReference is_reference;  ///< what reference() may be
     /// Makes beforehand what these settings will ask of the product; may be empty.
     std::function<void(const Product&, const Settings&)> prepare = nullptr;
+    /// Last of all: lets go of what can be read again; may be empty.
+    std::function<void(Product&, const scenegraph::MessageOrigin&)> settle = nullptr;
   };
 
   /// `table` outlives the layer.
@@ -58,12 +61,15 @@ class SampleLayer : public TopicLayer {
   void open(const scenegraph::LayerContext& context) override {
     loader_.emplace(
         context, source_.type, topic(), source_.tag,
-        [convert = source_.convert, prepare = source_.prepare, latest = latest_](
+        [source = source_, latest = latest_, topic = topic(), dataset = context.dataset.weak_from_this()](
             const scenegraph::AnyObject& object,
             const scenegraph::Entry& entry) -> std::expected<Product, scenegraph::Status> {
-          auto product = convert(object, entry);
-          if (product && prepare) {
-            prepare(*product, latest->get());
+          auto product = source.convert(object, entry);
+          if (product && source.prepare) {
+            source.prepare(*product, latest->get());
+          }
+          if (product && source.settle) {
+            source.settle(*product, {dataset, topic, source.type, entry});
           }
           return product;
         },

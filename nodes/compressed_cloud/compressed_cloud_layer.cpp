@@ -9,20 +9,19 @@
 namespace stillframe::nodes {
 namespace {
 
-std::expected<CloudPoints, scenegraph::Status> convert(const scenegraph::AnyObject& object, const scenegraph::Entry&) {
+CloudFeed::Cloud cloudOf(const scenegraph::AnyObject& object) {
   auto cloud = decodeCloud(*object.get<scenegraph::CompressedPointCloud>());
   if (!cloud) {
     return std::unexpected(scenegraph::Status{scenegraph::StatusLevel::Error, std::string(toString(cloud.error().code)),
                                               cloud.error().message});
   }
-  return CloudPoints::make(std::make_shared<const scenegraph::PointCloud>(std::move(*cloud)));
+  return std::make_shared<const scenegraph::PointCloud>(std::move(*cloud));
 }
 
 }  // namespace
 
 std::unique_ptr<scenegraph::Layer> createCompressedCloudLayer(std::string_view topic) {
-  return std::make_unique<PointCloudLayer>(
-      topic, CloudFeed{.type = scenegraph::ObjectType::CompressedPointCloud, .convert = &convert, .defaults = {}});
+  return std::make_unique<PointCloudLayer>(topic, feedOf(scenegraph::ObjectType::CompressedPointCloud, &cloudOf));
 }
 
 }  // namespace stillframe::nodes

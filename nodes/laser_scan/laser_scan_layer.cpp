@@ -23,7 +23,11 @@ std::expected<CloudPoints, Status> pointsOf(const scenegraph::AnyObject& object,
 }
 
 CloudFeed scanFeed() {
-  CloudFeed feed{.type = scenegraph::ObjectType::LaserScan, .tag = "scan points", .convert = &pointsOf, .defaults = {}};
+  CloudFeed feed{.type = scenegraph::ObjectType::LaserScan,
+                 .tag = "scan points",
+                 .convert = &pointsOf,
+                 .settle = {},
+                 .defaults = {}};
   feed.defaults.point_size = 3.0;
   return feed;
 }

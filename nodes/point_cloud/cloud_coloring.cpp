@@ -38,7 +38,33 @@ std::optional<ColorChoice> choiceOf(const std::string& field, const CloudPoints&
   return std::nullopt;
 }
 
+/// All that the work for colours depends on beside the cloud.
+std::string workOf(const ColorChoice& choice, const PointCloudSettings& settings) {
+  std::string work = std::to_string(static_cast<int>(choice.mode)) + " " + choice.channel;
+  if (settings.range_mode == "percentile") {
+    work += " " + scenegraph::settingText(settings.percentile_low) + " " +
+            scenegraph::settingText(settings.percentile_high);
+  }
+  return work;
+}
+
 }  // namespace
+
+void prepareColors(const CloudPoints& cloud, const ColorChoice& choice, const PointCloudSettings& settings) {
+  if (choice.mode == ColorMode::Rgb) {
+    (void)cloud.colors();
+  } else if (choice.mode == ColorMode::Value) {
+    (void)cloud.channel(choice.channel);
+    (void)channelRange(settings, choice.channel, cloud, cloud);
+  } else if (choice.mode == ColorMode::Axis) {
+    (void)axisRange(settings, choice.axis, cloud, {});
+  }
+  cloud.notePrepared(workOf(choice, settings));
+}
+
+bool areColorsPrepared(const CloudPoints& cloud, const ColorChoice& choice, const PointCloudSettings& settings) {
+  return choice.mode == ColorMode::Flat || cloud.isPrepared(workOf(choice, settings));
+}
 
 ColorChoice chooseColor(const std::string& color_field, const CloudPoints& reference, const CloudPoints& cloud) {
   const bool is_auto = color_field == "auto";

@@ -3,18 +3,28 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <set>
 #include <tuple>
 
 #include "scenegraph/pipeline/point_boxes.h"
+#include "scenegraph/raster/sample_order.h"
+#include "scenegraph/store/large_pages.h"
 
 namespace stillframe::nodes {
 namespace {
+
+template <typename Array>
+void makeRoom(Array& array, std::size_t size) {
+  array.reserve(size);
+  scenegraph::useLargePages(array.asVector().data(), size * sizeof(array.asVector().front()));
+  array.resize(size);
+}
 
 /// An array with a buffer of its own: OSG would put all arrays of a geometry into one, and upload all when one changes.
 template <typename Array>
 osg::ref_ptr<Array> makeArray(std::size_t size) {
   osg::ref_ptr<Array> array = new Array(osg::Array::BIND_PER_VERTEX);
-  array->resize(size);
+  makeRoom(*array, size);
   array->setVertexBufferObject(new osg::VertexBufferObject);
   return array;
 }
@@ -23,10 +33,14 @@ osg::ref_ptr<Array> makeArray(std::size_t size) {
 
 /// What has been made on demand so far.
 struct CloudPoints::Lazy {
-  std::mutex mutex;  // guards everything below
+  std::mutex mutex;  // guards what is above message_mutex
   std::map<std::string, CloudChannel, std::less<>> channels;
   std::map<std::tuple<std::string, double, double>, ValueRange> percentiles;
   osg::ref_ptr<osg::Vec4ubArray> colors;
+  std::set<std::string> prepared;
+  std::mutex message_mutex;  // guards the rest; taken after `mutex` where both are
+  std::weak_ptr<const scenegraph::PointCloud> message;
+  std::shared_ptr<const scenegraph::PointCloud> held_message;
 };
 
 CloudPoints::CloudPoints() : lazy_(std::make_unique<Lazy>()) {}
@@ -41,7 +55,7 @@ std::expected<CloudPoints, scenegraph::Status> CloudPoints::make(std::shared_ptr
   points.positions_ = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
   points.positions_->setVertexBufferObject(new osg::VertexBufferObject);
   auto converted = convertCloud(*cloud, [&](std::size_t floats) {
-    points.positions_->resize(floats / 3);
+    makeRoom(*points.positions_, floats / 3);
     return points.positions_->front().ptr();
   });
   if (!converted) {
@@ -53,8 +67,41 @@ std::expected<CloudPoints, scenegraph::Status> CloudPoints::make(std::shared_ptr
   scenegraph::findBoxes(*points.positions_);
   points.channels_ = listChannels(*cloud);
   points.color_source_ = findColors(*cloud);
+  points.message_bytes_ = cloud->data.bytes.size();
   points.cloud_ = std::move(cloud);
   return points;
+}
+
+void CloudPoints::settle(ReadMessage read) {
+  if (message_bytes_ <= kSmallBytes) {
+    return;
+  }
+  auto head = *cloud_;
+  head.data = {};
+  cloud_ = std::make_shared<const scenegraph::PointCloud>(std::move(head));
+  read_ = std::move(read);
+}
+
+std::shared_ptr<const scenegraph::PointCloud> CloudPoints::message() const {
+  if (!read_) {
+    return cloud_;
+  }
+  const std::scoped_lock lock(lazy_->message_mutex);
+  auto message = lazy_->message.lock();
+  if (message == nullptr) {
+    message = read_();
+    // A file that was replaced meanwhile may hold another one there.
+    message = message != nullptr && message->data.bytes.size() == message_bytes_ ? std::move(message) : nullptr;
+    lazy_->message = message;
+  }
+  return message;
+}
+
+std::shared_ptr<const scenegraph::PointCloud> CloudPoints::holdMessage() const {
+  auto message = this->message();
+  const std::scoped_lock lock(lazy_->message_mutex);
+  lazy_->held_message = message;
+  return message;
 }
 
 const CloudChannel* CloudPoints::channel(std::string_view name) const {
@@ -67,7 +114,11 @@ const CloudChannel* CloudPoints::channel(std::string_view name) const {
   CloudChannel& channel = found->second;
   if (is_new) {
     channel.values = makeArray<osg::FloatArray>(converted_.points);
-    channel.limits = convertChannel(*cloud_, converted_, *info, channel.values->asVector());
+    if (const auto cloud = message()) {
+      channel.limits = convertChannel(*cloud, converted_, *info, channel.values->asVector());
+    } else {
+      std::ranges::fill(*channel.values, kMissingValue);
+    }
   }
   return &channel;
 }
@@ -79,9 +130,8 @@ osg::Vec4ubArray* CloudPoints::colors() const {
   const std::scoped_lock lock(lazy_->mutex);
   if (!lazy_->colors.valid()) {
     lazy_->colors = makeArray<osg::Vec4ubArray>(converted_.points);
-    if (converted_.points > 0) {
-      convertColors(*cloud_, converted_, *color_source_,
-                    std::span(lazy_->colors->front().ptr(), 4 * converted_.points));
+    if (const auto cloud = message(); cloud != nullptr && converted_.points > 0) {
+      convertColors(*cloud, converted_, *color_source_, std::span(lazy_->colors->front().ptr(), 4 * converted_.points));
     }
   }
   return lazy_->colors.get();
@@ -110,6 +160,35 @@ ValueRange CloudPoints::axisPercentiles(int axis, double low, double high) const
   return found->second;
 }
 
+ValueRange CloudPoints::sampledAxisPercentiles(int axis, double low, double high) const {
+  using scenegraph::kPassesOfSample;
+  constexpr std::size_t kEnough = 65536;
+  const std::size_t groups = (converted_.points + kPassesOfSample - 1) / kPassesOfSample;
+  const std::size_t passes = std::min<std::size_t>(groups == 0 ? 0 : kEnough / groups + 1, kPassesOfSample);
+  std::vector<float> values;
+  values.reserve(groups * passes);
+  for (std::size_t group = 0; group < groups; ++group) {
+    for (std::size_t pass = 0; pass < passes; ++pass) {
+      const std::size_t point = group * kPassesOfSample + scenegraph::placeInGroup(static_cast<std::uint32_t>(group),
+                                                                                   static_cast<std::uint32_t>(pass));
+      if (point < converted_.points) {
+        values.push_back((*positions_)[point][axis]);
+      }
+    }
+  }
+  return percentileRange(values, converted_.origin[axis], low, high);
+}
+
+void CloudPoints::notePrepared(const std::string& work) const {
+  const std::scoped_lock lock(lazy_->mutex);
+  lazy_->prepared.insert(work);
+}
+
+bool CloudPoints::isPrepared(const std::string& work) const {
+  const std::scoped_lock lock(lazy_->mutex);
+  return lazy_->prepared.contains(work);
+}
+
 void CloudPoints::releaseGlObjects() const {
   positions_->releaseGLObjects();
   const std::scoped_lock lock(lazy_->mutex);
@@ -119,10 +198,18 @@ void CloudPoints::releaseGlObjects() const {
   for (const auto& [name, channel] : lazy_->channels) {
     channel.values->releaseGLObjects();
   }
+  const std::scoped_lock message_lock(lazy_->message_mutex);
+  lazy_->held_message = nullptr;
 }
 
-std::size_t CloudPoints::byteSize() const noexcept {
-  return sizeof(*this) + cloud_->byteSize() + converted_.points * (sizeof(osg::Vec3) + sizeof(float));
+std::size_t CloudPoints::byteSize() const {
+  const std::scoped_lock lock(lazy_->mutex);
+  std::size_t bytes = sizeof(*this) + cloud_->byteSize() + positions_->getTotalDataSize() +
+                      scenegraph::knownBoxes(*positions_).size_bytes();
+  for (const auto& [name, channel] : lazy_->channels) {
+    bytes += channel.values->getTotalDataSize();
+  }
+  return bytes + (lazy_->colors.valid() ? lazy_->colors->getTotalDataSize() : 0);
 }
 
 }  // namespace stillframe::nodes

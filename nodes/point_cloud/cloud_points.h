@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <expected>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <osg/Array>
@@ -36,15 +37,30 @@ struct CloudSupplement {
 /// Made on a worker, cached, shared by all views; the arrays are uploaded once per context and never written again.
 /// channel(), colors() and the percentiles convert on first use (some milliseconds per million points) and remember;
 /// any thread may call them.
+///
+/// The bytes of the message, as many as all of this and more, need not stay: settle() lets them go, and what asks for
+/// them later has them read again (message()).
 class CloudPoints {
  public:
+  using ReadMessage = std::function<std::shared_ptr<const scenegraph::PointCloud>()>;
   [[nodiscard]] static std::expected<CloudPoints, scenegraph::Status> make(
       std::shared_ptr<const scenegraph::PointCloud> cloud, const CloudSupplement& supplement = {});
   CloudPoints(CloudPoints&&) noexcept;
   CloudPoints& operator=(CloudPoints&&) noexcept;
   ~CloudPoints();
 
+  /// Lets go of the message's bytes where they are more than kSmallBytes; `read` brings them again, or nullptr.
+  void settle(ReadMessage read);
+  static constexpr std::size_t kSmallBytes = std::size_t{1} << 20;
+
+  /// The message, all but its bytes.
   [[nodiscard]] const scenegraph::PointCloud& source() const noexcept { return *cloud_; }
+  /// The message as it came; nullptr when it cannot be read any longer. Where it was let go of, reading takes some
+  /// milliseconds per million points.
+  [[nodiscard]] std::shared_ptr<const scenegraph::PointCloud> message() const;
+  /// The same for who will ask again: it stays until the cloud is no longer shown (releaseGlObjects()).
+  [[nodiscard]] std::shared_ptr<const scenegraph::PointCloud> holdMessage() const;
+  [[nodiscard]] std::size_t messageBytes() const noexcept { return message_bytes_; }
   [[nodiscard]] const CloudSupplement& supplement() const noexcept { return supplement_; }
   [[nodiscard]] const ConvertedCloud& converted() const noexcept { return converted_; }
   [[nodiscard]] osg::Vec3Array* positions() const noexcept { return positions_.get(); }
@@ -59,18 +75,26 @@ class CloudPoints {
   [[nodiscard]] ValueRange channelPercentiles(std::string_view name, double low, double high) const;
   /// Percentiles of x (0), y (1) or z (2) in the cloud's own coordinates.
   [[nodiscard]] ValueRange axisPercentiles(int axis, double low, double high) const;
+  /// The same of a fair sample of the points, in a millisecond: exact where they are few.
+  [[nodiscard]] ValueRange sampledAxisPercentiles(int axis, double low, double high) const;
+
+  /// Remembers that some work upon this is done, by a name of its own.
+  void notePrepared(const std::string& work) const;
+  [[nodiscard]] bool isPrepared(const std::string& work) const;
 
   /// Frees the arrays on the GPU, in every context; the next draw uploads them again. GUI thread.
   void releaseGlObjects() const;
 
-  /// Payload, positions and one channel.
-  [[nodiscard]] std::size_t byteSize() const noexcept;
+  /// Of what has been made so far, and the message where it stays.
+  [[nodiscard]] std::size_t byteSize() const;
 
  private:
   struct Lazy;
   CloudPoints();
 
-  std::shared_ptr<const scenegraph::PointCloud> cloud_;
+  std::shared_ptr<const scenegraph::PointCloud> cloud_;  // without its bytes once `read_` brings them
+  std::size_t message_bytes_ = 0;
+  ReadMessage read_;
   CloudSupplement supplement_;
   ConvertedCloud converted_;
   osg::ref_ptr<osg::Vec3Array> positions_;

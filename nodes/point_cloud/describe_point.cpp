@@ -25,7 +25,11 @@ std::optional<std::size_t> offsetOf(const ConvertedCloud& converted, std::size_t
 }  // namespace
 
 std::optional<scenegraph::Picked> describePoint(const CloudPoints& cloud, std::size_t index) {
-  const scenegraph::PointCloud& source = cloud.source();
+  const auto message = cloud.holdMessage();
+  if (message == nullptr) {
+    return std::nullopt;
+  }
+  const scenegraph::PointCloud& source = *message;
   const auto offset = offsetOf(cloud.converted(), index);
   const auto layout = checkLayout(source);
   if (!offset || !layout) {

@@ -13,21 +13,33 @@ using scenegraph::StatusLevel;
 namespace {
 
 void prepare(const CloudPoints& cloud, const PointCloudSettings& settings) {
-  const ColorChoice choice = chooseColor(settings.color_field, cloud, cloud);
-  if (choice.mode == ColorMode::Rgb) {
-    (void)cloud.colors();
-  } else if (choice.mode == ColorMode::Value) {
-    (void)cloud.channel(choice.channel);
-  }
+  prepareColors(cloud, chooseColor(settings.color_field, cloud, cloud), settings);
 }
 
 }  // namespace
 
-std::unique_ptr<scenegraph::Layer> PointCloudLayer::create(std::string_view topic) {
-  const auto convert = [](const scenegraph::AnyObject& object, const scenegraph::Entry&) {
-    return CloudPoints::make(object.get<scenegraph::PointCloud>());
+CloudFeed feedOf(scenegraph::ObjectType type,
+                 const std::function<CloudFeed::Cloud(const scenegraph::AnyObject&)>& read) {
+  CloudFeed feed{.type = type, .convert = {}, .settle = {}, .defaults = {}};
+  feed.convert = [read](const scenegraph::AnyObject& object,
+                        const scenegraph::Entry&) -> std::expected<CloudPoints, Status> {
+    auto cloud = read(object);
+    return cloud ? CloudPoints::make(std::move(*cloud)) : std::unexpected(cloud.error());
   };
-  return std::make_unique<PointCloudLayer>(topic, CloudFeed{.convert = convert, .defaults = {}});
+  feed.settle = [read](CloudPoints& points, const scenegraph::MessageOrigin& origin) {
+    points.settle([read, origin]() -> std::shared_ptr<const scenegraph::PointCloud> {
+      const scenegraph::AnyObject object = origin.read();
+      return object ? read(object).value_or(nullptr) : nullptr;
+    });
+  };
+  return feed;
+}
+
+std::unique_ptr<scenegraph::Layer> PointCloudLayer::create(std::string_view topic) {
+  const auto cloudOf = [](const scenegraph::AnyObject& object) -> CloudFeed::Cloud {
+    return object.get<scenegraph::PointCloud>();
+  };
+  return std::make_unique<PointCloudLayer>(topic, feedOf(scenegraph::ObjectType::PointCloud, cloudOf));
 }
 
 PointCloudLayer::PointCloudLayer(std::string_view topic, CloudFeed feed)
@@ -36,16 +48,20 @@ PointCloudLayer::PointCloudLayer(std::string_view topic, CloudFeed feed)
                    .tag = std::move(feed.tag),
                    .convert = std::move(feed.convert),
                    .is_reference = [](const CloudPoints& points) { return points.converted().points > 0; },
-                   .prepare = &prepare},
+                   .prepare = &prepare,
+                   .settle = std::move(feed.settle)},
                   pointCloudSettingsTable(), std::move(feed.defaults)) {}
 
 void PointCloudLayer::open(const scenegraph::LayerContext& context) {
   SampleLayer::open(context);
+  color_job_.emplace(context.executor, context.request_update);
   geometry_ = addGeometry(state_.stateSet());
 }
 
 void PointCloudLayer::close() {
   SampleLayer::close();
+  color_job_.reset();
+  color_work_.reset();
   geometry_ = nullptr;
 }
 
@@ -66,7 +82,7 @@ osg::BoundingBoxd PointCloudLayer::bulk() const {
   // A quarter of the spread beyond the 5th and 95th percentile at most: a cloud without strays keeps its whole box.
   osg::BoundingBoxd bulk = box();
   for (int axis = 0; axis < 3; ++axis) {
-    const ValueRange middle = product()->axisPercentiles(axis, 5.0, 95.0);
+    const ValueRange middle = product()->sampledAxisPercentiles(axis, 5.0, 95.0);
     const double margin = (middle.high - middle.low) / 4.0;
     bulk._min[axis] = std::max(bulk._min[axis], middle.low - margin);
     bulk._max[axis] = std::min(bulk._max[axis], middle.high + margin);
@@ -74,7 +90,12 @@ osg::BoundingBoxd PointCloudLayer::bulk() const {
   return bulk;
 }
 
+bool PointCloudLayer::isWorking() const { return SampleLayer::isWorking() || color_job_->isPending(); }
+
 void PointCloudLayer::show() {
+  color_job_->cancel();
+  color_work_.reset();
+  colored_by_ = nullptr;
   choice_ = {};
   range_.reset();
   geometry_->removePrimitiveSet(0, geometry_->getNumPrimitiveSets());
@@ -90,27 +111,60 @@ void PointCloudLayer::show() {
   geometry_->dirtyBound();
 }
 
+/// Whether all is there that these colours need; sees to it that it will be.
+bool PointCloudLayer::hasColorsFor(const ColorChoice& choice) {
+  if (colored_by_ == reference() && choice == choice_ && ranged_ == chosen()) {
+    return true;
+  }
+  ColorWork work{product(), reference(), choice, chosen()};
+  const auto isReady = [&] {
+    return areColorsPrepared(*work.cloud, choice, work.settings) &&
+           areColorsPrepared(*work.reference, choice, work.settings);
+  };
+  if (isReady()) {
+    color_job_->cancel();
+    color_work_.reset();
+    return true;
+  }
+  if (color_work_ != work) {
+    color_work_ = work;
+    color_job_->request({.sequence = ++color_jobs_, .product = "colors"},
+                        [work]() -> scenegraph::LatestJob<CloudPoints>::Result {
+                          for (const Shown& cloud : {work.cloud, work.reference}) {
+                            prepareColors(*cloud, work.choice, work.settings);
+                          }
+                          return work.cloud;
+                        });
+  }
+  (void)color_job_->take();
+  return isReady();
+}
+
 void PointCloudLayer::draw(const Placement& fixed_from_points) {
   if (takeSettings()) {
     state_.apply(chosen());
     geometry_->setNodeMask(chosen().opacity < 1.0 ? ~0U : scenegraph::kOpaquePoints);
   }
   const ColorChoice choice = chooseColor(chosen().color_field, *reference(), *product());
-  if (choice != choice_) {
-    choice_ = choice;
-    setColorArrays();
+  if (hasColorsFor(choice)) {
+    ranged_ = chosen();
+    colored_by_ = reference();
+    if (choice != choice_) {
+      choice_ = choice;
+      setColorArrays();
+    }
   }
   // What the mode does not use is set all the same: the state must not tell where it came from.
   RangeMap value_map;
   glm::dvec4 axis_map{0.0};
   range_.reset();
   if (choice_.mode == ColorMode::Value) {
-    range_ = channelRange(chosen(), choice_.channel, *reference(), *product());
-    value_map = chosen().map(*range_, product()->channel(choice_.channel)->limits.offset);
+    range_ = channelRange(ranged_, choice_.channel, *reference(), *product());
+    value_map = ranged_.map(*range_, product()->channel(choice_.channel)->limits.offset);
   } else if (choice_.mode == ColorMode::Axis && fixed_from_points) {
-    range_ = axisRange(chosen(), choice_.axis, *product(), *fixed_from_points);
+    range_ = axisRange(ranged_, choice_.axis, *product(), *fixed_from_points);
     fixed_from_points_ = *fixed_from_points;
-    axis_map = axisMap(chosen(), *range_, choice_.axis, *fixed_from_points, product()->converted().origin);
+    axis_map = axisMap(ranged_, *range_, choice_.axis, *fixed_from_points, product()->converted().origin);
   }
   state_.setMode(choice_.mode, value_map);
   state_.setAxisMap(axis_map);
@@ -177,7 +231,7 @@ scenegraph::LayerCounts PointCloudLayer::counts() const {
   const ConvertedCloud& cloud = product()->converted();
   return {{"points", cloud.points + cloud.out_of_reach},
           {"dropped", cloud.not_finite + product()->supplement().left_out},
-          {"bytes", product()->source().data.bytes.size()}};
+          {"bytes", product()->messageBytes()}};
 }
 
 std::vector<scenegraph::SettingSpec> PointCloudLayer::settingSpecs() const {

@@ -4,7 +4,12 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
 #include <limits>
+#include <span>
+#include <vector>
+
+#include <tbb/parallel_for.h>
 
 #include "nodes/points/copy_points.h"
 #include "nodes/points/read_value.h"
@@ -125,13 +130,97 @@ void convertRowFloat3(const std::byte* row, std::size_t count, std::size_t step,
   }
 }
 
-template <typename Row>
-void forEachRow(const CloudLayout& layout, Progress& progress, const Row& convert) {
-  for (std::size_t row = 0; row < layout.rows; ++row) {
-    // A run may cross a row border only when there is no padding, and then there is just one row.
-    progress.run_open = false;
-    convert(progress.data + row * layout.row_step);
+/// Points that one thread converts: some rows, or a piece of the only one.
+struct Part {
+  std::size_t first_row = 0;
+  std::size_t rows = 1;
+  std::size_t first = 0;  // in its rows
+  std::size_t count = 0;  // a row
+
+  /// Points before it.
+  [[nodiscard]] std::size_t place(const CloudLayout& layout) const { return first_row * layout.points_per_row + first; }
+};
+
+/// The same whatever the number of threads. A part takes half a millisecond.
+std::vector<Part> partsOf(const CloudLayout& layout) {
+  constexpr std::size_t kPoints = std::size_t{1} << 18U;
+  std::vector<Part> parts;
+  if (layout.rows == 1) {
+    for (std::size_t first = 0; first < layout.points_per_row; first += kPoints) {
+      parts.push_back({.first = first, .count = std::min(kPoints, layout.points_per_row - first)});
+    }
+  } else {
+    const std::size_t rows = std::max<std::size_t>(kPoints / layout.points_per_row, 1);
+    for (std::size_t row = 0; row < layout.rows; row += rows) {
+      parts.push_back(
+          {.first_row = row, .rows = std::min(rows, layout.rows - row), .first = 0, .count = layout.points_per_row});
+    }
   }
+  return parts;
+}
+
+/// What one part came to; its positions begin where they would if nothing had been dropped anywhere.
+struct PartResult {
+  ConvertedCloud cloud;
+  glm::dvec3 low{kInfinity};
+  glm::dvec3 high{-kInfinity};
+};
+
+/// The results behind each other, as if one thread had gone through all. Run by run it is nearly nothing; positions
+/// move where points were dropped before them.
+PartResult join(const std::vector<Part>& parts, std::span<const PartResult> results, const CloudLayout& layout,
+                float* out) {
+  PartResult joined;
+  ConvertedCloud& all = joined.cloud;
+  all.point_step = layout.point_step;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const ConvertedCloud& cloud = results[i].cloud;
+    const float* const from = out + 3 * parts[i].place(layout);
+    if (float* const to = out + 3 * all.points; to != from && cloud.points > 0) {
+      std::memmove(to, from, 3 * cloud.points * sizeof(float));
+    }
+    for (const PointRun& run : cloud.runs) {
+      if (!all.runs.empty() && all.runs.back().offset + all.runs.back().count * all.point_step == run.offset) {
+        all.runs.back().count += run.count;
+      } else {
+        all.runs.push_back(run);
+      }
+    }
+    all.points += cloud.points;
+    all.not_finite += cloud.not_finite;
+    all.out_of_reach += cloud.out_of_reach;
+    joined.low = glm::min(joined.low, results[i].low);
+    joined.high = glm::max(joined.high, results[i].high);
+  }
+  return joined;
+}
+
+/// `convert(row, count, progress)` of all parts, in parallel where there are several.
+template <typename Convert>
+PartResult convertParts(const CloudLayout& layout, std::span<const std::byte> data, float* out,
+                        const Convert& convert) {
+  const std::vector<Part> parts = partsOf(layout);
+  std::vector<PartResult> results(parts.size());
+  const auto convertPart = [&](std::size_t number) {
+    const Part& part = parts[number];
+    PartResult& result = results[number];
+    result.cloud.point_step = layout.point_step;
+    float* const place = out + 3 * part.place(layout);
+    Progress progress{result.cloud, data.data(), data.data() + data.size(), place, place + 3 * part.rows * part.count};
+    for (std::size_t row = part.first_row; row < part.first_row + part.rows; ++row) {
+      // A run may cross a row border only when there is no padding, and then there is just one row.
+      progress.run_open = false;
+      convert(data.data() + row * layout.row_step + part.first * layout.point_step, part.count, progress);
+    }
+    result.low = progress.low;
+    result.high = progress.high;
+  };
+  if (parts.size() == 1) {
+    convertPart(0);
+  } else {
+    tbb::parallel_for(std::size_t{0}, parts.size(), convertPart);
+  }
+  return join(parts, results, layout, out);
 }
 
 /// Second pass: the kept points again, in double, relative to the origin.
@@ -155,49 +244,54 @@ std::expected<ConvertedCloud, CloudError> convertCloud(const PointCloud& cloud, 
     return std::unexpected(checked.error());
   }
   const CloudLayout& layout = *checked;
-  ConvertedCloud converted;
-  converted.point_step = layout.point_step;
   if (layout.points() == 0) {
-    return converted;
+    ConvertedCloud nothing;
+    nothing.point_step = layout.point_step;
+    return nothing;
   }
   const auto& [x, y, z] = layout.xyz;
   const std::array<std::size_t, 3> offsets{x->offset, y->offset, z->offset};
-  const std::byte* const data = cloud.data.bytes.data();
+  const std::span<const std::byte> data = cloud.data.bytes;
   float* const out = positions(3 * layout.points());
-  Progress progress{converted, data, data + cloud.data.bytes.size(), out, out + 3 * layout.points()};
   const MixedReader mixed{{valueReader(x->type, cloud.is_bigendian), valueReader(y->type, cloud.is_bigendian),
                            valueReader(z->type, cloud.is_bigendian)},
                           offsets};
   const std::size_t step = layout.point_step;
-  const std::size_t count = layout.points_per_row;
   const bool is_uniform = x->type == y->type && y->type == z->type;
   const bool is_native = cloud.is_bigendian == (std::endian::native == std::endian::big);
+  PartResult joined;
   if (is_uniform && x->type == FieldType::Float32 && is_native && offsets[1] == offsets[0] + 4 &&
       offsets[2] == offsets[0] + 8) {
-    forEachRow(layout, progress,
-               [&](const std::byte* row) { convertRowFloat3(row, count, step, offsets[0], progress); });
+    joined = convertParts(layout, data, out, [&](const std::byte* row, std::size_t count, Progress& progress) {
+      convertRowFloat3(row, count, step, offsets[0], progress);
+    });
   } else if (is_uniform) {
     withFieldType(x->type, cloud.is_bigendian, [&]<typename T, bool kSwapped>() {
       const UniformReader<T, kSwapped> read{offsets};
-      forEachRow(layout, progress, [&](const std::byte* row) { convertRow(row, count, step, read, progress); });
+      joined = convertParts(layout, data, out, [&](const std::byte* row, std::size_t count, Progress& progress) {
+        convertRow(row, count, step, read, progress);
+      });
     });
   } else {
-    forEachRow(layout, progress, [&](const std::byte* row) { convertRow(row, count, step, mixed, progress); });
+    joined = convertParts(layout, data, out, [&](const std::byte* row, std::size_t count, Progress& progress) {
+      convertRow(row, count, step, mixed, progress);
+    });
   }
+  ConvertedCloud converted = std::move(joined.cloud);
   if (converted.points == 0) {
     return converted;
   }
-  converted.box_min = progress.low;
-  converted.box_max = progress.high;
+  converted.box_min = joined.low;
+  converted.box_max = joined.high;
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = progress.low[axis];
-    const double high = progress.high[axis];
+    const double low = joined.low[axis];
+    const double high = joined.high[axis];
     if (std::max(std::abs(low), std::abs(high)) > ConvertedCloud::kNearby) {
       converted.origin[axis] = std::rint(low / 2 + high / 2);
     }
   }
   if (converted.origin != glm::dvec3(0.0)) {
-    writeRelative(mixed, converted, data, out);
+    writeRelative(mixed, converted, data.data(), out);
   }
   return converted;
 }

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 namespace stillframe::scenegraph {
 namespace {
 
@@ -44,11 +47,15 @@ PointBox boxOf(const float* values, std::size_t count) {
 
 std::vector<PointBox> boxesOf(std::span<const float> positions) {
   constexpr std::size_t kFloats = std::size_t{3} * kPassesOfSample;
-  std::vector<PointBox> boxes;
-  boxes.reserve((positions.size() + kFloats - 1) / kFloats);
-  for (std::size_t first = 0; first < positions.size(); first += kFloats) {
-    boxes.push_back(boxOf(&positions[first], std::min(kFloats, positions.size() - first)));
-  }
+  constexpr std::size_t kGroupsATask = 128;
+  std::vector<PointBox> boxes((positions.size() + kFloats - 1) / kFloats);
+  const auto find = [&](const tbb::blocked_range<std::size_t>& groups) {
+    for (std::size_t group = groups.begin(); group < groups.end(); ++group) {
+      const std::size_t first = group * kFloats;
+      boxes[group] = boxOf(&positions[first], std::min(kFloats, positions.size() - first));
+    }
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, boxes.size(), kGroupsATask), find);
   return boxes;
 }
 

@@ -17,7 +17,7 @@ struct PointBox {
 };
 
 /// Boxes of the groups of a cloud, the last of which may be short. NaN widens no box. One pass over the positions, at
-/// the speed of memory; 24 bytes a group of 1024 points. Any thread.
+/// the speed of memory, in parallel; 24 bytes a group of 1024 points. Any thread.
 [[nodiscard]] std::vector<PointBox> boxesOf(std::span<const float> positions);
 
 /// Whether a box may hold something that is inside the clip volume (z from 0 to w): never wrong when false, rounding of

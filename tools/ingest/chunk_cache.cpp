@@ -32,4 +32,14 @@ std::shared_ptr<const ChunkCache::Chunk> ChunkCache::get(std::uint64_t key, cons
   return {slot, &slot->chunk};
 }
 
+void ChunkCache::drop(std::uint64_t key) {
+  std::list<Item> dropped;  // destroyed after the lock: a chunk may be large
+  const std::lock_guard lock(mutex_);
+  if (const auto known = index_.find(key); known != index_.end()) {
+    bytes_ -= known->second->bytes;
+    dropped.splice(dropped.begin(), items_, known->second);
+    index_.erase(known);
+  }
+}
+
 }  // namespace stillframe::ingest

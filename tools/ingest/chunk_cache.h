@@ -24,6 +24,8 @@ class ChunkCache {
   explicit ChunkCache(std::size_t max_bytes) : max_bytes_(max_bytes) {}
   /// The chunk of that key; `unpack` makes it when it is not there. Blocks while another thread makes it.
   [[nodiscard]] std::shared_ptr<const Chunk> get(std::uint64_t key, const std::function<Chunk()>& unpack);
+  /// The chunk is not wanted again soon.
+  void drop(std::uint64_t key);
 
  private:
   struct Slot {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "scenegraph/store/large_pages.h"
 #include "tools/ingest/sentence.h"
 
 namespace stillframe::ingest {
@@ -63,7 +64,7 @@ struct Lz4Stream {
 };
 
 Buffer grown(Buffer old, std::size_t used, std::size_t size) {
-  Buffer buffer{std::make_unique_for_overwrite<std::byte[]>(size), size};
+  Buffer buffer = makeBuffer(size);
   if (used > 0) {
     std::memcpy(buffer.data.get(), old.data.get(), used);
   }
@@ -116,6 +117,12 @@ std::expected<Buffer, std::string> unpack(std::span<const std::byte> packed, std
 }
 
 }  // namespace
+
+Buffer makeBuffer(std::size_t size) {
+  Buffer buffer{std::make_unique_for_overwrite<std::byte[]>(size), size};
+  scenegraph::useLargePages(buffer.data.get(), size);
+  return buffer;
+}
 
 std::optional<Compression> compressionFromName(std::string_view name) noexcept {
   if (name.empty()) {

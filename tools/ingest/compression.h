@@ -30,6 +30,8 @@ struct Buffer {
   [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return {data.get(), size}; }
 };
 
+[[nodiscard]] Buffer makeBuffer(std::size_t size);
+
 /// Largest size a chunk of `packed_bytes` may claim: what the method can produce at best (255-fold for lz4), at most
 /// 1024-fold but always 64 MiB for zstd, and never 2 GiB or more.
 [[nodiscard]] std::uint64_t maxUnpackedBytes(Compression compression, std::uint64_t packed_bytes) noexcept;

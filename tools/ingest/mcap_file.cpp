@@ -222,8 +222,7 @@ std::expected<Buffer, std::string> McapFile::unpack(const ChunkPlace& place) con
   if (header->uncompressed_size > maxUnpackedBytes(*compression, header->packed_size)) {
     return bad("it claims ", header->uncompressed_size, " bytes, more than ", header->packed_size, " bytes can hold");
   }
-  Buffer packed{std::make_unique_for_overwrite<std::byte[]>(static_cast<std::size_t>(packed_size)),
-                static_cast<std::size_t>(packed_size)};
+  Buffer packed = makeBuffer(static_cast<std::size_t>(packed_size));
   if (file_->read(place.offset + data_offset, {packed.data.get(), packed.size}) != packed.size) {
     return bad("the file became shorter");
   }

@@ -1,9 +1,11 @@
 #include "tools/ingest/mcap_source.h"
 
+#include <algorithm>
 #include <array>
 #include <tuple>
 #include <utility>
 
+#include "scenegraph/store/large_pages.h"
 #include "tools/ingest/field_reader.h"
 #include "tools/ingest/sentence.h"
 
@@ -12,6 +14,9 @@ namespace stillframe::ingest {
 namespace {
 
 constexpr std::size_t kCachedChunkBytes = std::size_t{128} << 20;
+constexpr std::size_t kLargeMessage = std::size_t{8} << 20;
+
+std::uint64_t chunkKey(const Locator& place) { return std::uint64_t{place.file} << 32 | place.chunk; }
 
 scenegraph::DecodeError misplaced(const Locator& place, const std::string& path, const char* why) {
   return {"BadMessageIndex",
@@ -76,6 +81,7 @@ std::expected<McapSource::Located, scenegraph::DecodeError> McapSource::locate(c
     }
     const auto bytes = static_cast<std::size_t>(kRecordHeaderBytes + length);
     auto record = std::make_shared_for_overwrite<std::byte[]>(bytes);
+    scenegraph::useLargePages(record.get(), bytes);
     if (file.file().read(place.offset, {record.get(), bytes}) != bytes) {
       return std::unexpected(misplaced(place, file.file().path(), "the end of the file"));
     }
@@ -85,7 +91,7 @@ std::expected<McapSource::Located, scenegraph::DecodeError> McapSource::locate(c
   if (place.chunk >= file.chunks().size()) {
     return std::unexpected(misplaced(place, file.file().path(), "no chunk"));
   }
-  auto chunk = chunks_.get(std::uint64_t{place.file} << 32 | place.chunk, [&] { return file.unpack(place.chunk); });
+  auto chunk = chunks_.get(chunkKey(place), [&] { return file.unpack(place.chunk); });
   if (!*chunk) {
     return std::unexpected(scenegraph::DecodeError{"BadChunk", chunk->error()});
   }
@@ -122,6 +128,11 @@ std::expected<scenegraph::AnyObject, scenegraph::DecodeError> McapSource::decode
   }
   if (channel->second.decoder.decoder == nullptr) {
     return std::unexpected(scenegraph::DecodeError{"Unsupported", channel->second.decoder.unsupported_reason});
+  }
+  // A chunk of one large message, a cloud's, serves nobody but who reads that again; it is as large as a whole cache.
+  if (place.chunk != FoundMessage::kNoChunk &&
+      message->data.size() > std::max(located->block.size() / 2, kLargeMessage)) {
+    chunks_.drop(chunkKey(place));
   }
   return channel->second.decoder.decoder->decode(
       {message->data, std::move(located->anchor), located->block.size(), entry.log_time});

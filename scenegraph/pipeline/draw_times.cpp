@@ -9,6 +9,8 @@
 #include <osg/ref_ptr>
 #include <utility>
 
+#include "scenegraph/stopwatch.h"
+
 namespace stillframe::scenegraph {
 namespace {
 
@@ -43,8 +45,7 @@ double shortestMs(const std::function<void()>& draw) {
     const auto start = std::chrono::steady_clock::now();
     draw();
     glFinish();
-    shortest =
-        std::min(shortest, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    shortest = std::min(shortest, millisecondsSince(start));
   }
   return shortest;
 }

@@ -6,14 +6,9 @@
 #include <ctime>
 #include <utility>
 
+#include "scenegraph/stopwatch.h"
+
 namespace stillframe::scenegraph {
-namespace {
-
-double millisecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-}  // namespace
 
 std::expected<std::unique_ptr<OffscreenRenderer>, Status> OffscreenRenderer::create() {
   auto context = OffscreenContext::create();

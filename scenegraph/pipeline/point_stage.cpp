@@ -7,14 +7,13 @@
 #include "scenegraph/geometry.h"
 #include "scenegraph/pipeline/cpu_points.h"
 #include "scenegraph/pipeline/full_screen.h"
+#include "scenegraph/stopwatch.h"
 
 namespace stillframe::scenegraph {
 namespace {
 
 namespace glsl = shaders::stillframe_render;
 using Clock = std::chrono::steady_clock;
-
-double milliseconds(Clock::duration duration) { return std::chrono::duration<double, std::milli>(duration).count(); }
 
 constexpr double kFirstGuess = 2e4;  // points a millisecond, of one slow core
 constexpr double kNewest = 0.5;      // of the mean: soon right after a change, no slave of one slow frame
@@ -77,18 +76,18 @@ PointProgress PointStage::draw(PointCollection points, int width_px, int height_
     const std::uint32_t more = affordablePasses(left);
     drawer_->draw({passes_, passes_ + more});
     passes_ += more;
-    progress.raster_ms = milliseconds(Clock::now() - start);
+    progress.raster_ms = millisecondsSince(start);
     const double drawn = static_cast<double>(in_view_) * more / kPassesOfSample;
     constexpr double kTelling = 2000.0;  // points: fewer tell of the call, not of a point
     if (drawn >= kTelling) {
-      points_per_ms_ += kNewest * (drawn / std::max(milliseconds(Clock::now() - before), 1e-3) - points_per_ms_);
+      points_per_ms_ += kNewest * (drawn / std::max(millisecondsSince(before), 1e-3) - points_per_ms_);
     }
   }
   progress.share = static_cast<double>(passes_) / kPassesOfSample;
   if (is_drawing || !is_same_colors) {
     const auto drawn = Clock::now();
     progress.upload_bytes += drawer_->resolve(PointShading(drawn_.batches, drawn_.colors));
-    progress.resolve_ms = milliseconds(Clock::now() - drawn);
+    progress.resolve_ms = millisecondsSince(drawn);
     resolve_ms_ += kNewest * (progress.resolve_ms - resolve_ms_);
   }
   return progress;

@@ -22,6 +22,7 @@
 #include "scenegraph/pipeline/id_pass.h"
 #include "scenegraph/pipeline/point_collection.h"
 #include "scenegraph/pipeline/stages.h"
+#include "scenegraph/stopwatch.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -224,8 +225,7 @@ void ViewPipeline::Impl::drawFrame() {
   viewer->frame();
   if (point_progress && isPaced()) {
     gl::finish();
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    rest_ms += (took.count() - rest_ms) / 2.0;
+    rest_ms += (millisecondsSince(start) - rest_ms) / 2.0;
   }
 }
 

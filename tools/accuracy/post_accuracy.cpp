@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "scenegraph/passes/view_effects.h"
+#include "scenegraph/stopwatch.h"
 #include "tools/accuracy/post_scene.h"
 #include "tools/accuracy/svg_plot.h"
 
@@ -130,10 +131,9 @@ class Meter {
   [[nodiscard]] int samples() const { return renderer_.lastFrame().samples; }
   /// Shortest of as many frames as `seconds` allow, three at least, after one that makes what is made once.
   [[nodiscard]] double frameMs(const PostChain& chain, double seconds) {
-    using Clock = std::chrono::steady_clock;
     double best = std::numeric_limits<double>::infinity();
-    const auto start = Clock::now();
-    for (int i = 0; i < 4 || std::chrono::duration<double>(Clock::now() - start).count() < seconds; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < 4 || scenegraph::secondsSince(start) < seconds; ++i) {
       if (draw(chain) && i > 0) {
         best = std::min(best, renderer_.lastFrame().frame_ms);
       }

@@ -13,6 +13,7 @@
 #include "generated/stillframe_accuracy_post/shaders.h"
 #include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
+#include "scenegraph/stopwatch.h"
 #include "tools/accuracy/svg_plot.h"
 
 namespace stillframe::accuracy {
@@ -94,7 +95,6 @@ std::string titleOf(const Case& one) {
 
 std::expected<TransparencyReport, Status> transparencyAccuracy(scenegraph::OffscreenRenderer& renderer,
                                                                double seconds) {
-  using Clock = std::chrono::steady_clock;
   const double each_s = seconds / static_cast<double>(kCases.size() * kSorted.size());
   const std::string name = renderer.context().info().renderer;
   TransparencyReport result;
@@ -124,8 +124,8 @@ std::expected<TransparencyReport, Status> transparencyAccuracy(scenegraph::Offsc
                           .opacity = static_cast<double>(one.opacity),
                           .most_sorted = most_sorted,
                           .frame_ms = std::numeric_limits<double>::infinity()};
-      const auto start = Clock::now();
-      for (int i = 0; i < 2 || std::chrono::duration<double>(Clock::now() - start).count() < each_s; ++i) {
+      const auto start = std::chrono::steady_clock::now();
+      for (int i = 0; i < 2 || scenegraph::secondsSince(start) < each_s; ++i) {
         const auto picture = draw(renderer, *scene, most_sorted);
         if (!picture) {
           return std::unexpected(picture.error());

@@ -7,6 +7,7 @@
 
 #include "nodes/points/codecs/cloudini.h"
 #include "nodes/points/codecs/draco.h"
+#include "scenegraph/stopwatch.h"
 #include "tools/bench/codec_workloads.h"
 
 namespace stillframe::bench {
@@ -17,7 +18,7 @@ double secondsOf(const Function& function) {
   const auto start = std::chrono::steady_clock::now();
   function();
   benchmark::ClobberMemory();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return scenegraph::secondsSince(start);
 }
 
 /// Times `ours` and `other` in turns and reports other / ours.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <random>
 
+#include "scenegraph/stopwatch.h"
 #include "tools/bench/grid_workload.h"
 
 namespace stillframe::bench {
@@ -32,8 +33,7 @@ void randomSeek(benchmark::State& state) {
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
     benchmark::DoNotOptimize(stream().seek(history, random() % (PatchStream::kPatches + 1)).applied);
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    longest_ms = std::max(longest_ms, took.count());
+    longest_ms = std::max(longest_ms, scenegraph::millisecondsSince(start));
   }
   state.counters["longest_ms"] = longest_ms;
   state.counters["checkpoints"] = static_cast<double>(history.checkpointCount());

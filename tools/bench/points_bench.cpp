@@ -12,6 +12,7 @@
 #include "nodes/points/channel.h"
 #include "nodes/points/convert_cloud.h"
 #include "nodes/points/point_colors.h"
+#include "scenegraph/stopwatch.h"
 
 namespace stillframe {
 namespace {
@@ -64,9 +65,8 @@ PointCloud makeCloud(std::size_t points, std::uint32_t step, Layout layout) {
   return cloud;
 }
 
+using scenegraph::secondsSince;
 using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 void reportAgainstMemcpy(benchmark::State& state, const PointCloud& cloud, double ours, double copying) {
   const auto bytes = static_cast<double>(cloud.data.bytes.size());

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scenegraph/stopwatch.h"
 #include "tools/cli/cli_error.h"
 
 namespace stillframe::cli {
@@ -26,7 +27,7 @@ template <typename Function>
 double secondsOf(const Function& function) {
   const auto start = std::chrono::steady_clock::now();
   function();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return scenegraph::secondsSince(start);
 }
 
 /// The best of several calls: what the machine can do when nobody disturbs it.

@@ -14,6 +14,7 @@
 #include "scenegraph/executor.h"
 #include "scenegraph/pipeline/offscreen_renderer.h"
 #include "scenegraph/scene.h"
+#include "scenegraph/stopwatch.h"
 #include "tools/cli/bench_results.h"
 #include "tools/cli/recording_options.h"
 
@@ -25,8 +26,6 @@ using Clock = std::chrono::steady_clock;
 constexpr int kPositions = 40;  // of the slider, over the recording
 constexpr double kBudgetMs = 33.0;
 constexpr double kLongestWaitS = 20.0;
-
-double milliseconds(Clock::duration duration) { return std::chrono::duration<double, std::milli>(duration).count(); }
 
 /// The event loop of a window, as far as a view needs one: who waits, and who wakes.
 class Wakes {
@@ -92,7 +91,7 @@ class Scrubber {
       share = frame.points ? frame.points->share : 1.0;
       step.frame_ms = std::max(step.frame_ms, frame.frame_ms);
       read_back_ms += frame.read_back_ms;  // no part of a frame in a window
-      const double passed_ms = milliseconds(Clock::now() - start) - read_back_ms;
+      const double passed_ms = scenegraph::millisecondsSince(start) - read_back_ms;
       step.picture_ms = step.picture_ms == 0.0 ? passed_ms : step.picture_ms;
       step.complete_ms = passed_ms;
     }
@@ -174,7 +173,7 @@ Result<double> readingMs(const std::string& file, tf::TimePoint time) {
     }
   }
   executor->drain();
-  return milliseconds(Clock::now() - start);
+  return scenegraph::millisecondsSince(start);
 }
 
 }  // namespace
@@ -212,7 +211,7 @@ Result<void> benchScrub(const std::string& file, std::vector<BenchResult>& resul
   if (const auto first = scrubber.go(*first_time); !first) {
     return std::unexpected(first.error());
   } else {
-    const double opened_ms = milliseconds(Clock::now() - opening) - first->complete_ms + first->picture_ms;
+    const double opened_ms = scenegraph::millisecondsSince(opening) - first->complete_ms + first->picture_ms;
     results.push_back({"open to first picture", opened_ms, "ms"});
     results.push_back({"open, read and unpack the clouds of it", *reading_ms, "ms"});
     results.push_back({"open to first picture / reading", opened_ms / *reading_ms, "", 1.3});

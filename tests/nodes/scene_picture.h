@@ -1,7 +1,5 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cstdlib>
 #include <memory>
@@ -10,29 +8,19 @@
 #include "nodes/registry.h"
 #include "scenegraph/executor.h"
 #include "scenegraph/export/picture_io.h"
-#include "scenegraph/pipeline/offscreen_renderer.h"
 #include "scenegraph/scene.h"
 #include "tests/support/builders.h"
+#include "tests/support/offscreen_test.h"
 
 namespace stillframe::test {
 
 using Bytes3 = std::array<int, 3>;
 
-/// A scene of the real layers, drawn without a window; every test also fails on a GL debug message.
+/// A scene of the real layers, drawn without a window.
 ///
 /// With STILLFRAME_PICTURES=DIR in the environment each picture is written there, to be looked at.
-class ScenePictureTest : public testing::Test {
+class ScenePictureTest : public OffscreenTest {
  protected:
-  void SetUp() override {
-    auto renderer = scenegraph::OffscreenRenderer::create();
-    ASSERT_TRUE(renderer) << renderer.error().message;
-    renderer_ = std::move(*renderer);
-  }
-  void TearDown() override {
-    EXPECT_EQ(renderer_->context().debugLog().count(), 0U)
-        << testing::PrintToString(renderer_->context().debugLog().messages());
-  }
-
   void open(std::shared_ptr<scenegraph::Dataset> dataset, const std::string& fixed_frame) {
     scene_.reset();
     dataset_ = std::move(dataset);
@@ -50,10 +38,12 @@ class ScenePictureTest : public testing::Test {
                                int height = 200, const scenegraph::PostChain& post = {}) {
     scene_->update(tf::TimePoint{time_ns});
     scene_->setView(view, {static_cast<double>(width), static_cast<double>(height)});
-    const auto picture = renderer_->render(
-        scene_->root(), view, {.width = width, .height = height, .background = {0, 0, 0, 1}, .post = post});
-    EXPECT_TRUE(picture) << picture.error().message;
-    auto bytes = picture ? scenegraph::toBytes(*picture) : scenegraph::BytePicture{};
+    return toBeSeen(
+        render(scene_->root(), view, {.width = width, .height = height, .background = {0, 0, 0, 1}, .post = post}));
+  }
+  /// Its bytes, also written where STILLFRAME_PICTURES says.
+  scenegraph::BytePicture toBeSeen(const scenegraph::Picture& picture) {
+    auto bytes = scenegraph::toBytes(picture);
     if (const char* folder = std::getenv("STILLFRAME_PICTURES")) {
       const auto* info = testing::UnitTest::GetInstance()->current_test_info();
       const std::string name = std::string(info->name()) + "_" + std::to_string(pictures_++) + ".png";
@@ -75,7 +65,6 @@ class ScenePictureTest : public testing::Test {
     return drawn;
   }
 
-  std::unique_ptr<scenegraph::OffscreenRenderer> renderer_;
   std::unique_ptr<scenegraph::Executor> executor_ = scenegraph::makeSynchronousExecutor();
   std::shared_ptr<scenegraph::Dataset> dataset_;
   std::unique_ptr<scenegraph::Scene> scene_;

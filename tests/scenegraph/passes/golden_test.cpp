@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenegraph/export/picture_io.h"
 #include "scenegraph/passes/view_effects.h"
-#include "scenegraph/pipeline/offscreen_renderer.h"
 #include "tests/support/golden.h"
+#include "tests/support/offscreen_test.h"
 #include "tools/accuracy/post_scene.h"
 
 namespace stillframe::scenegraph {
@@ -17,19 +18,14 @@ constexpr int kWidth = 240;
 constexpr int kHeight = 160;
 
 /// The scene of the accuracy report through each effect alone and through all; the numbers beside say what it did.
-class EffectPicture : public ::testing::Test {
+class EffectPicture : public test::OffscreenTest {
  protected:
   void SetUp() override {
-    auto renderer = OffscreenRenderer::create();
-    ASSERT_TRUE(renderer) << renderer.error().message;
-    renderer_ = std::move(*renderer);
+    OffscreenTest::SetUp();
     plain_ = draw({});
   }
   Picture draw(const ViewEffects& effects) {
-    const auto picture = renderer_->render(*scene_, accuracy::postSceneView(),
-                                           {.width = kWidth, .height = kHeight, .post = effects.chain()});
-    EXPECT_TRUE(picture) << picture.error().message;
-    return picture ? *picture : Picture{};
+    return render(*scene_, accuracy::postSceneView(), {.width = kWidth, .height = kHeight, .post = effects.chain()});
   }
   static ViewEffects with(const std::string& effect, const SettingTexts& settings = {}) {
     ViewEffects effects;
@@ -60,7 +56,6 @@ class EffectPicture : public ::testing::Test {
     return static_cast<double>(count) / (kWidth * kHeight);
   }
 
-  std::unique_ptr<OffscreenRenderer> renderer_;
   osg::ref_ptr<osg::Group> scene_ = accuracy::makePostScene();
   Picture plain_;
 };

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <osg/MatrixTransform>
 #include <vector>
 
-#include "scenegraph/pipeline/offscreen_renderer.h"
 #include "tests/scenegraph/pipeline/shader_scene.h"
+#include "tests/support/offscreen_test.h"
 
 namespace stillframe::scenegraph {
 
@@ -64,23 +63,11 @@ inline osg::ref_ptr<osg::Group> makeCorner(float size_m) {
   return corner;
 }
 
-/// Pictures of small scenes through chains of passes; every test also fails on a GL debug message.
-class PassTest : public ::testing::Test {
+/// Pictures of small scenes through chains of passes.
+class PassTest : public test::OffscreenTest {
  protected:
-  void SetUp() override {
-    auto renderer = OffscreenRenderer::create();
-    ASSERT_TRUE(renderer) << renderer.error().message;
-    renderer_ = std::move(*renderer);
-  }
-  void TearDown() override {
-    EXPECT_EQ(renderer_->context().debugLog().count(), 0U)
-        << ::testing::PrintToString(renderer_->context().debugLog().messages());
-  }
   Picture draw(const CameraView& view, int width, int height, const PostChain& chain) {
-    auto picture =
-        renderer_->render(*root_, view, {.width = width, .height = height, .background = background_, .post = chain});
-    EXPECT_TRUE(picture) << picture.error().message;
-    return picture ? std::move(*picture) : Picture{};
+    return render(*root_, view, {.width = width, .height = height, .background = background_, .post = chain});
   }
   static float red(const Picture& picture, int x, int y) {
     return picture.rgba[static_cast<std::size_t>(y * picture.width + x) * 4];
@@ -100,7 +87,6 @@ class PassTest : public ::testing::Test {
     return std::sqrt(sum / static_cast<double>(a.rgba.size()));
   }
 
-  std::unique_ptr<OffscreenRenderer> renderer_;
   osg::ref_ptr<osg::Group> root_ = new osg::Group;
   Color background_{0, 0, 0, 1};
 };

@@ -1,14 +1,14 @@
 #include "tools/accuracy/transparency_accuracy.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/offscreen_test.h"
 
 namespace stillframe::accuracy {
 namespace {
 
-TEST(TransparencyAccuracy, HasNoErrorWhereAllIsInOrderAndLittleWhereWhatMattersIs) {
-  auto renderer = scenegraph::OffscreenRenderer::create();
-  ASSERT_TRUE(renderer) << renderer.error().message;
-  const auto measured = transparencyAccuracy(**renderer, 0.0);
+class TransparencyAccuracy : public test::OffscreenTest {};
+
+TEST_F(TransparencyAccuracy, HasNoErrorWhereAllIsInOrderAndLittleWhereWhatMattersIs) {
+  const auto measured = transparencyAccuracy(*renderer_, 0.0);
   ASSERT_TRUE(measured) << measured.error().message;
   bool has_default = false;
   for (const TransparencyRow& row : measured->rows) {

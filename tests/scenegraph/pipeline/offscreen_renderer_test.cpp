@@ -10,6 +10,7 @@
 
 #include "scenegraph/blending.h"
 #include "tests/scenegraph/pipeline/shader_scene.h"
+#include "tests/support/offscreen_test.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -20,22 +21,10 @@ int byteFromLinear(float linear) {
   return static_cast<int>(std::lround(srgb * 255.0));
 }
 
-class OffscreenRendererTest : public ::testing::Test {
+class OffscreenRendererTest : public test::OffscreenTest {
  protected:
-  void SetUp() override {
-    auto renderer = OffscreenRenderer::create();
-    ASSERT_TRUE(renderer) << renderer.error().message;
-    renderer_ = std::move(*renderer);
-    root_ = new osg::Group;
-  }
-  void TearDown() override {
-    EXPECT_EQ(renderer_->context().debugLog().count(), 0U)
-        << ::testing::PrintToString(renderer_->context().debugLog().messages());
-  }
   Picture draw(const CameraView& view, int width, int height) {
-    auto picture = renderer_->render(*root_, view, {.width = width, .height = height});
-    EXPECT_TRUE(picture) << picture.error().message;
-    return picture ? std::move(*picture) : Picture{};
+    return render(*root_, view, {.width = width, .height = height});
   }
   /// Red, green, blue as sRGB bytes.
   static std::array<int, 3> pixel(const Picture& picture, int x, int y) {
@@ -46,8 +35,7 @@ class OffscreenRendererTest : public ::testing::Test {
     return picture.depth_m[static_cast<std::size_t>(y * picture.width + x)];
   }
 
-  std::unique_ptr<OffscreenRenderer> renderer_;
-  osg::ref_ptr<osg::Group> root_;
+  osg::ref_ptr<osg::Group> root_ = new osg::Group;
 };
 
 CameraView lookDown(double height) { return {.eye_from_fixed = lookAt({0, 0, height}, {0, 0, 0}, {0, 1, 0})}; }

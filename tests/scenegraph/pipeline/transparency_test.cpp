@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "scenegraph/blending.h"
-#include "scenegraph/pipeline/offscreen_renderer.h"
 #include "tests/scenegraph/pipeline/shader_scene.h"
+#include "tests/support/offscreen_test.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -53,17 +53,8 @@ std::vector<Pane> randomPanes(int count, unsigned seed, float least_alpha = 0.05
   return panes;
 }
 
-class TransparencyTest : public ::testing::Test {
+class TransparencyTest : public test::OffscreenTest {
  protected:
-  void SetUp() override {
-    auto renderer = OffscreenRenderer::create();
-    ASSERT_TRUE(renderer) << renderer.error().message;
-    renderer_ = std::move(*renderer);
-  }
-  void TearDown() override {
-    EXPECT_EQ(renderer_->context().debugLog().count(), 0U)
-        << ::testing::PrintToString(renderer_->context().debugLog().messages());
-  }
   /// From above, 2 x 2 metres, no perspective.
   Picture draw(const std::vector<osg::ref_ptr<osg::Node>>& nodes, int size = 48, const PostChain& post = {},
                int most_sorted = kMostSorted) {
@@ -74,11 +65,9 @@ class TransparencyTest : public ::testing::Test {
     CameraView view{.eye_from_fixed = lookAt({0, 0, 10}, {0, 0, 0}, {0, 1, 0})};
     view.is_orthographic = true;
     view.vertical_extent_m = 2.0;
-    auto picture = renderer_->render(
+    return render(
         *root, view,
         {.width = size, .height = size, .background = {0, 0, 0, 1}, .post = post, .most_sorted = most_sorted});
-    EXPECT_TRUE(picture) << picture.error().message;
-    return picture ? std::move(*picture) : Picture{};
   }
   Picture draw(const std::vector<Pane>& panes, int size = 48, int most_sorted = kMostSorted) {
     std::vector<osg::ref_ptr<osg::Node>> nodes;
@@ -87,7 +76,6 @@ class TransparencyTest : public ::testing::Test {
     }
     return draw(nodes, size, {}, most_sorted);
   }
-  std::unique_ptr<OffscreenRenderer> renderer_;
 };
 
 float largestDifference(const Picture& a, const Picture& b) {

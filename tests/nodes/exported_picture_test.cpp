@@ -1,11 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <osgDB/ReadFile>
 
 #include "nodes/points/codecs/cloudini_header.h"
-#include "scenegraph/export/osgt_export.h"
 #include "scenegraph/objects/compressed_point_cloud.h"
 #include "scenegraph/objects/laser_scan.h"
 #include "tests/nodes/grid_map_builder.h"
@@ -103,19 +100,7 @@ scenegraph::GridMap hills() {
   return map;
 }
 
-class ExportedPicture : public ScenePictureTest, public testing::WithParamInterface<ExportCase> {
- protected:
-  void SetUp() override {
-    ScenePictureTest::SetUp();
-    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("exported_picture_") + GetParam().name);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override {
-    ScenePictureTest::TearDown();
-    std::filesystem::remove_all(folder_);
-  }
-  std::filesystem::path folder_;
-};
+class ExportedPicture : public ScenePictureTest, public testing::WithParamInterface<ExportCase> {};
 
 TEST_P(ExportedPicture, IsTheSameInAPlainViewer) {
   const std::array<glm::dvec3, 2> places{glm::dvec3(0.0), glm::dvec3(5e5, 5e6, 120.0)};
@@ -133,33 +118,26 @@ TEST_P(ExportedPicture, IsTheSameInAPlainViewer) {
     scene_->update(tf::TimePoint{1_s});
     const scenegraph::CameraView view{.eye_from_fixed =
                                           scenegraph::lookAt(place + glm::dvec3(3.5, -5.0, 4.0), place, {0, 0, 1})};
-    const auto picture =
-        renderer_->render(scene_->root(), view, {.width = kWidth, .height = kHeight, .background = kBackground});
-    ASSERT_TRUE(picture) << picture.error().message;
-    const auto ours = scenegraph::toBytes(*picture);
+    const auto ours = scenegraph::toBytes(
+        render(scene_->root(), view, {.width = kWidth, .height = kHeight, .background = kBackground}));
     const osg::ref_ptr<osg::Group> nothing = new osg::Group;
     const auto empty = drawPlainly(*nothing, view, 0.1, 100.0, kWidth, kHeight, kBackground);
     const std::size_t drawn = difference(ours, empty).pixels;
     EXPECT_GE(drawn, is_far ? GetParam().least_drawn_far : GetParam().least_drawn);
-    for (const char* const file : {"scene.osgt", "scene.osgb"}) {
-      const auto path = folder_ / file;
-      const auto written = scenegraph::exportGraph(
-          scene_->root(),
-          {.time = {1_s}, .fixed_frame = "utm", .source = "test", .layers = {}, .viewport_height_px = kHeight}, path);
-      ASSERT_TRUE(written) << written.error().message;
-      const osg::ref_ptr<osg::Node> back = osgDB::readRefNodeFile(path.string());
+    for (const char* const extension : kExportExtensions) {
+      const osg::ref_ptr<osg::Node> back = exportedAndRead(scene_->root(), extension, kHeight);
       ASSERT_TRUE(back.valid());
       const auto plain = drawPlainly(*back, view, 0.1, 100.0, kWidth, kHeight, kBackground);
       const auto differs = difference(ours, plain);
-      const std::string key = std::string(file).substr(6) + (is_far ? "_utm" : "_origin");
+      const std::string key = std::string(extension) + (is_far ? "_utm" : "_origin");
       RecordProperty("pixels_" + key, static_cast<int>(differs.pixels));
       RecordProperty("largest_" + key, differs.largest);
-      EXPECT_LE(drawnInOne(ours, plain, empty), GetParam().is_blended ? drawn / 50 : 0U) << file;
+      EXPECT_LE(drawnInOne(ours, plain, empty), GetParam().is_blended ? drawn / 50 : 0U) << extension;
       if (!GetParam().is_blended) {
         // One step of a channel where a colour between two bytes is rounded to half float on its way through linear
         // light, nothing else.
-        EXPECT_EQ(differs.beyond_one, 0U) << file << ": largest " << differs.largest;
-        EXPECT_LE(differs.pixels * 6, drawn) << file;
+        EXPECT_EQ(differs.beyond_one, 0U) << extension << ": largest " << differs.largest;
+        EXPECT_LE(differs.pixels * 6, drawn) << extension;
       }
     }
   }

@@ -1,8 +1,7 @@
 // Foxglove's scans, grids and clouds of a recording, exported and drawn by plain OpenSceneGraph.
+#include <algorithm>
 #include <filesystem>
-#include <osgDB/ReadFile>
 
-#include "scenegraph/export/osgt_export.h"
 #include "tests/nodes/scene_picture.h"
 #include "tests/support/plain_viewer.h"
 #include "tools/ingest/recording.h"
@@ -34,14 +33,7 @@ TEST_P(RecordedExport, IsTheSameInAPlainViewer) {
   const auto ours = draw(end.ns, view, 320, 240);
   const int drawn = drawnPixels(ours);
   EXPECT_GT(drawn, 300);
-  const auto path = std::filesystem::path(testing::TempDir()) /
-                    ("recorded_export_" + std::to_string(std::hash<std::string>{}(GetParam())) + ".osgt");
-  const auto written = scenegraph::exportGraph(
-      scene_->root(),
-      {.time = end, .fixed_frame = scene_->fixedFrame(), .source = "test", .layers = {}, .viewport_height_px = 240},
-      path);
-  ASSERT_TRUE(written) << written.error().message;
-  const osg::ref_ptr<osg::Node> back = osgDB::readRefNodeFile(path.string());
+  const osg::ref_ptr<osg::Node> back = exportedAndRead(scene_->root());
   ASSERT_TRUE(back.valid());
   const auto plain = drawPlainly(*back, view, 0.05 * radius, 10.0 * radius, 320, 240, kBlack);
   const auto differs = difference(ours, plain);
@@ -51,7 +43,6 @@ TEST_P(RecordedExport, IsTheSameInAPlainViewer) {
   // Where two points or the edge of a surface share a pixel, the depth buffers of 24 bits and of floats may differ.
   EXPECT_LE(differs.beyond_one * 100, static_cast<std::size_t>(drawn)) << "of " << drawn << ", " << differs.largest;
   EXPECT_NEAR(drawnPixels(plain), drawn, 3);
-  std::filesystem::remove(path);
 }
 
 INSTANTIATE_TEST_SUITE_P(Foxglove, RecordedExport,

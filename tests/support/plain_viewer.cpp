@@ -1,15 +1,20 @@
 #include "tests/support/plain_viewer.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <glm/gtc/type_ptr.hpp>
 #include <numbers>
 #include <osg/Camera>
 #include <osg/Image>
+#include <osgDB/ReadFile>
 #include <osgViewer/Renderer>
 #include <osgViewer/Viewer>
 
+#include "scenegraph/export/osgt_export.h"
 #include "scenegraph/pipeline/offscreen_context.h"
 
 namespace stillframe::test {
@@ -63,6 +68,22 @@ scenegraph::BytePicture drawPlainly(osg::Node& scene, const scenegraph::CameraVi
   camera->removeChildren(0, camera->getNumChildren());
   scene.releaseGLObjects(viewer.getCamera()->getGraphicsContext()->getState());
   return picture;
+}
+
+osg::ref_ptr<osg::Node> exportedAndRead(const osg::Group& scene, const std::string& extension, int viewport_height_px) {
+  const auto& test = *testing::UnitTest::GetInstance()->current_test_info();
+  std::string name = std::string(test.test_suite_name()) + "." + test.name() + extension;
+  std::ranges::replace(name, '/', '_');
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
+  const auto written = scenegraph::exportGraph(
+      scene,
+      {.time = {}, .fixed_frame = "map", .source = "test", .layers = {}, .viewport_height_px = viewport_height_px},
+      path);
+  EXPECT_TRUE(written) << written.error().message;
+  osg::ref_ptr<osg::Node> read = written ? osgDB::readRefNodeFile(path.string()) : nullptr;
+  EXPECT_TRUE(read.valid()) << path;
+  std::filesystem::remove(path);
+  return read;
 }
 
 PictureDifference difference(const scenegraph::BytePicture& a, const scenegraph::BytePicture& b) {

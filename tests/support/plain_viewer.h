@@ -1,6 +1,9 @@
 #pragma once
 
-#include <osg/Node>
+#include <array>
+#include <osg/Group>
+#include <osg/ref_ptr>
+#include <string>
 
 #include "scenegraph/camera/camera.h"
 #include "scenegraph/export/picture_io.h"
@@ -15,6 +18,13 @@ namespace stillframe::test {
 [[nodiscard]] scenegraph::BytePicture drawPlainly(osg::Node& scene, const scenegraph::CameraView& view, double near_m,
                                                   double far_m, int width_px, int height_px,
                                                   const scenegraph::Color& background);
+
+/// What there is of `scene` in a file: exported under a name of the running test's and read again by OpenSceneGraph
+/// alone. nullptr, and a failure, where either cannot be done. Sizes in metres are those of a picture so many pixels
+/// high.
+[[nodiscard]] osg::ref_ptr<osg::Node> exportedAndRead(const osg::Group& scene, const std::string& extension = ".osgt",
+                                                      int viewport_height_px = 240);
+inline constexpr std::array<const char*, 2> kExportExtensions{".osgt", ".osgb"};
 
 /// How two pictures of one size differ.
 struct PictureDifference {

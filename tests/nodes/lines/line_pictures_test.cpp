@@ -5,13 +5,11 @@
 #include <limits>
 #include <numbers>
 #include <osg/MatrixTransform>
-#include <osgDB/ReadFile>
 #include <set>
 
 #include "nodes/line_state.h"
 #include "nodes/lines/line_drawable.h"
 #include "nodes/points/colormap.h"
-#include "scenegraph/export/osgt_export.h"
 #include "scenegraph/geometry.h"
 #include "tests/nodes/scene_picture.h"
 #include "tests/support/plain_viewer.h"
@@ -45,15 +43,7 @@ class LinePicture : public ScenePictureTest {
     builder.end();
   }
   scenegraph::BytePicture drawLines(const scenegraph::CameraView& view = fromAbove()) {
-    const auto picture = renderer_->render(*root_, view, {.width = 200, .height = 200, .background = {0, 0, 0, 1}});
-    EXPECT_TRUE(picture) << picture.error().message;
-    auto bytes = picture ? scenegraph::toBytes(*picture) : scenegraph::BytePicture{};
-    if (const char* folder = std::getenv("STILLFRAME_PICTURES")) {
-      const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-      EXPECT_TRUE(scenegraph::writePng(
-          bytes, std::string(folder) + "/" + info->name() + "_" + std::to_string(pictures_++) + ".png"));
-    }
-    return bytes;
+    return toBeSeen(render(*root_, view, {.width = 200, .height = 200, .background = {0, 0, 0, 1}}));
   }
   static int drawnInColumn(const scenegraph::BytePicture& picture, int x) {
     int drawn = 0;
@@ -276,12 +266,7 @@ TEST_F(LinePicture, LooksTheSameInAPlainViewer) {
   lines_.set(builder.take());
   const scenegraph::CameraView view{.eye_from_fixed = scenegraph::lookAt({1, -4, 3}, {0, 0, 0}, {0, 0, 1})};
   const auto ours = drawLines(view);
-  const auto path = std::filesystem::path(testing::TempDir()) / "lines.osgt";
-  const auto written = scenegraph::exportGraph(
-      *root_, {.time = {}, .fixed_frame = "map", .source = "test", .layers = {}, .viewport_height_px = 200}, path);
-  ASSERT_TRUE(written) << written.error().message;
-  const osg::ref_ptr<osg::Node> back = osgDB::readRefNodeFile(path.string());
-  std::filesystem::remove(path);
+  const osg::ref_ptr<osg::Node> back = exportedAndRead(*root_, ".osgt", 200);
   ASSERT_TRUE(back.valid());
   const auto plain = drawPlainly(*back, view, 0.01, 100.0, 200, 200, {0, 0, 0, 1});
   EXPECT_GE(drawnPixels(ours), 10'000);

@@ -1,12 +1,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <osgDB/ReadFile>
 #include <span>
 
-#include "scenegraph/export/osgt_export.h"
 #include "scenegraph/objects/scene_entities.h"
 #include "tests/nodes/markers/marker_builder.h"
 #include "tests/nodes/scene_picture.h"
@@ -265,17 +262,9 @@ TEST_F(MarkerPicture, IsTheSameInAPlainViewer) {
     add("/markers", {{"texts", "false"}});
     scene_->update(tf::TimePoint{1_s});
     const auto view = fromTheSide(place);
-    const auto drawn =
-        renderer_->render(scene_->root(), view, {.width = 320, .height = 240, .background = kBackground});
-    ASSERT_TRUE(drawn);
-    const auto ours = scenegraph::toBytes(*drawn);
-    const auto path = std::filesystem::path(testing::TempDir()) / "markers.osgt";
-    const auto written = scenegraph::exportGraph(
-        scene_->root(),
-        {.time = {1_s}, .fixed_frame = "map", .source = "test", .layers = {}, .viewport_height_px = 240}, path);
-    ASSERT_TRUE(written) << written.error().message;
-    const osg::ref_ptr<osg::Node> back = osgDB::readRefNodeFile(path.string());
-    std::filesystem::remove(path);
+    const auto ours =
+        scenegraph::toBytes(render(scene_->root(), view, {.width = 320, .height = 240, .background = kBackground}));
+    const osg::ref_ptr<osg::Node> back = exportedAndRead(scene_->root());
     ASSERT_TRUE(back.valid());
     const auto differs = difference(ours, drawPlainly(*back, view, 0.1, 100.0, 320, 240, kBackground));
     // What is translucent is blended by us in linear light, by a stock viewer in sRGB bytes: the one sphere.

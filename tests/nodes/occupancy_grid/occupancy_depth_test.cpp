@@ -1,9 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <osgDB/ReadFile>
 
-#include "scenegraph/export/osgt_export.h"
 #include "tests/nodes/grid_map_builder.h"
 #include "tests/nodes/occupancy_grid/grid_builder.h"
 #include "tests/nodes/poses/poses_builder.h"
@@ -120,9 +117,8 @@ TEST_F(OccupancyDepth, NothingInOnePlaneFightsAtAnyDistance) {
           continue;  // the plane passes the eye nearer than the near plane
         }
         const int wrong = flips([&] {
-          const auto picture =
-              renderer_->render(scene_->root(), view, {.width = kSize, .height = kSize, .background = kBlack});
-          return scenegraph::toBytes(*picture);
+          return scenegraph::toBytes(
+              render(scene_->root(), view, {.width = kSize, .height = kSize, .background = kBlack}));
         });
         EXPECT_EQ(wrong, 0) << distance_m << " m, " << elevation_deg << " degrees, " << wrong << " of " << drawn_
                             << (is_orthographic ? ", orthographic" : "");
@@ -254,23 +250,15 @@ TEST_F(OccupancyGolden, IsTheSameInAPlainViewer) {
   openRooms();
   ASSERT_TRUE(scene_->findLayer("/costmap")->layer->applySettings({{"alpha", "1"}}));
   const auto ours = draw(1_s, view_, 320, 240);
-  const auto folder = std::filesystem::path(testing::TempDir()) / "exported_occupancy";
-  std::filesystem::create_directories(folder);
-  for (const char* const file : {"scene.osgt", "scene.osgb"}) {
-    const auto written = scenegraph::exportGraph(
-        scene_->root(),
-        {.time = {1_s}, .fixed_frame = "map", .source = "test", .layers = {}, .viewport_height_px = 240},
-        folder / file);
-    ASSERT_TRUE(written) << written.error().message;
-    const osg::ref_ptr<osg::Node> back = osgDB::readRefNodeFile((folder / file).string());
+  for (const char* const extension : kExportExtensions) {
+    const osg::ref_ptr<osg::Node> back = exportedAndRead(scene_->root(), extension);
     ASSERT_TRUE(back.valid());
     const auto plain = drawPlainly(*back, view_, 0.1, 100.0, 320, 240, kBlack);
     const auto differs = difference(ours, plain);
     // Partly covered edges of the transparent costmap are blended in linear light by us, in bytes by a stock viewer.
-    EXPECT_LE(differs.beyond_one, 400U) << file << ": largest " << differs.largest;
+    EXPECT_LE(differs.beyond_one, 400U) << extension << ": largest " << differs.largest;
     EXPECT_GT(drawnPixels(plain), 40000);
   }
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -3,12 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <osgDB/ReadFile>
 
 #include "scenegraph/buffer_patches.h"
-#include "scenegraph/export/osgt_export.h"
 #include "tests/nodes/scene_picture.h"
 #include "tests/support/plain_viewer.h"
 
@@ -51,9 +48,7 @@ class InstancedPicture : public ScenePictureTest {
   scenegraph::BytePicture look(const InstancedMesh& mesh, const scenegraph::CameraView& view = fromAbove()) {
     const osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(&mesh.node());
-    const auto picture = renderer_->render(*root, view, {.width = 200, .height = 200, .background = kBlack});
-    EXPECT_TRUE(picture) << picture.error().message;
-    return picture ? scenegraph::toBytes(*picture) : scenegraph::BytePicture{};
+    return scenegraph::toBytes(render(*root, view, {.width = 200, .height = 200, .background = kBlack}));
   }
   static Instance at(double x, double y, const glm::dvec3& size, const scenegraph::Color& color) {
     return makeInstance({.translation = {x, y, 0}}, size, glm::dvec3(0), color);
@@ -104,9 +99,7 @@ TEST_F(InstancedPicture, UploadsOnlyWhatChanged) {
   InstancedMesh boxes(nodes::boxMesh(), "boxes");
   root->addChild(&boxes.node());
   const auto show = [&] {
-    const auto picture = renderer_->render(*root, fromAbove(), {.width = 200, .height = 200, .background = kBlack});
-    EXPECT_TRUE(picture) << picture.error().message;
-    return scenegraph::toBytes(*picture);
+    return scenegraph::toBytes(render(*root, fromAbove(), {.width = 200, .height = 200, .background = kBlack}));
   };
   boxes.resize(10'000);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -199,15 +192,9 @@ TEST_F(InstancedPicture, IsTheSameInAPlainViewerAtAnEarthSizedOffset) {
   root->addChild(&spheres.node());
   const scenegraph::CameraView view{.eye_from_fixed =
                                         scenegraph::lookAt(place + glm::dvec3(2, -8, 5), place, {0, 0, 1})};
-  const auto drawn = renderer_->render(*root, view, {.width = 200, .height = 200, .background = kBlack});
-  ASSERT_TRUE(drawn);
-  const auto ours = scenegraph::toBytes(*drawn);
+  const auto ours = scenegraph::toBytes(render(*root, view, {.width = 200, .height = 200, .background = kBlack}));
   EXPECT_GT(drawnPixels(ours), 3000);
-  const auto path = std::filesystem::path(testing::TempDir()) / "instanced_mesh.osgt";
-  ASSERT_TRUE(
-      scenegraph::exportGraph(*root, {.time = {0}, .fixed_frame = "map", .source = "test", .layers = {}}, path));
-  const osg::ref_ptr<osg::Node> back = osgDB::readRefNodeFile(path.string());
-  std::filesystem::remove(path);
+  const osg::ref_ptr<osg::Node> back = exportedAndRead(*root);
   ASSERT_TRUE(back.valid());
   const auto differs = difference(ours, drawPlainly(*back, view, 0.1, 100.0, 200, 200, kBlack));
   EXPECT_EQ(differs.beyond_one, 0U) << "largest " << differs.largest;

@@ -1,5 +1,8 @@
+#include <map>
 #include <osg/CopyOp>
 #include <osg/Notify>
+#include <osg/StateSet>
+#include <osg/ref_ptr>
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 #include <osgDB/ReaderWriter>
@@ -10,6 +13,26 @@
 #include "tools/osgplugin/option_string.h"
 
 namespace stillframe::osgplugin {
+
+/// Copies nodes and drawables, and the state sets that they share, each once: the layers empty theirs when they end.
+class SceneCopy final : public osg::CopyOp {
+ public:
+  SceneCopy() : osg::CopyOp(DEEP_COPY_NODES | DEEP_COPY_DRAWABLES | DEEP_COPY_ARRAYS | DEEP_COPY_PRIMITIVES) {}
+  using osg::CopyOp::operator();
+  osg::StateSet* operator()(const osg::StateSet* state) const override {
+    if (state == nullptr) {
+      return nullptr;
+    }
+    osg::ref_ptr<osg::StateSet>& copy = copies_[state];
+    if (!copy.valid()) {
+      copy = new osg::StateSet(*state, osg::CopyOp(DEEP_COPY_UNIFORMS));
+    }
+    return copy.get();
+  }
+
+ private:
+  mutable std::map<const osg::StateSet*, osg::ref_ptr<osg::StateSet>> copies_;
+};
 
 /// Reads one instant of a recording as the scene that `stillframe export` would write: stock classes only.
 class ReaderWriterMcap final : public osgDB::ReaderWriter {
@@ -53,10 +76,9 @@ class ReaderWriterMcap final : public osgDB::ReaderWriter {
     if (!session) {
       return fail(session.error());
     }
-    // The layers empty their drawables when the session ends: the graph that is handed out has its own.
+    // The layers end with the session: the graph that is handed out has its own.
     const auto graph = scenegraph::makeExportGraph((*session)->scene().root(), (*session)->exportInfo());
-    return static_cast<osg::Node*>(graph->clone(osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_DRAWABLES |
-                                                osg::CopyOp::DEEP_COPY_ARRAYS | osg::CopyOp::DEEP_COPY_PRIMITIVES));
+    return static_cast<osg::Node*>(graph->clone(SceneCopy()));
   }
 
  private:

@@ -13,6 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "scenegraph/export/osgt_export.h"
+#include "tests/support/graph_dump.h"
+#include "tools/cli/scene_session.h"
 #include "tools/sample/sample.h"
 
 namespace stillframe {
@@ -68,6 +71,24 @@ TEST_F(Plugin, IsFoundByStockOpenSceneGraph) {
   EXPECT_GE(census.most_vertices, 500U);  // the cloud outlives what made it
   EXPECT_THAT(result.getNode()->getDescriptions(),
               testing::IsSupersetOf({"time_ns=1700000000501000000", "fixed_frame=base_link"}));
+}
+
+TEST_F(Plugin, GivesWhatAnExportHolds) {
+  cli::ViewOptions view;
+  view.recording.file = (folder_ / "a.mcap").string();
+  auto session = cli::SceneSession::make(view);
+  ASSERT_TRUE(session) << session.error().message;
+  for (const auto& slot : (*session)->scene().layers()) {
+    SCOPED_TRACE(slot->id);
+    view.layers = {{slot->id, {}}};
+    view.only_named_layers = true;
+    const auto alone = cli::SceneSession::make(view);
+    ASSERT_TRUE(alone) << alone.error().message;
+    const auto exported = scenegraph::makeExportGraph((*alone)->scene().root(), (*alone)->exportInfo());
+    auto result = read("layers=" + slot->id);
+    ASSERT_TRUE(result.validNode()) << result.message();
+    EXPECT_EQ(test::dumpGraph(*result.getNode()), test::dumpGraph(*exported));
+  }
 }
 
 TEST_F(Plugin, GivesStockClassesOnly) {

@@ -17,8 +17,6 @@ std::string dateOfToday() {
 }
 
 bool writeReport(const AccuracyReport& report, const std::string& directory) {
-  std::error_code failed;
-  std::filesystem::create_directories(directory, failed);
   const auto write = [&](const char* extension, const std::string& text) {
     std::ofstream file(std::filesystem::path(directory) / std::string(report.name).append(extension), std::ios::binary);
     file << text;

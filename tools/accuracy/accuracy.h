@@ -15,7 +15,7 @@ struct AccuracyReport {
 /// "2026-11-22", UTC: when what is reported was measured.
 [[nodiscard]] std::string dateOfToday();
 
-/// Writes DIRECTORY/<name>.md and .svg, creating the directory; false when that failed.
+/// Writes <name>.md and <name>.svg into a directory that there is; false when that failed.
 [[nodiscard]] bool writeReport(const AccuracyReport& report, const std::string& directory);
 
 }  // namespace stillframe::accuracy

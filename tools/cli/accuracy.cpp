@@ -1,8 +1,10 @@
 #include "tools/accuracy/accuracy.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -106,6 +108,13 @@ constexpr std::array kSubjects{
 };
 
 Result<void> runAccuracy(const AccuracyOptions& options) {
+  if (!options.folder.empty()) {  // said now, not after minutes of measuring
+    std::error_code failed;
+    std::filesystem::create_directories(options.folder, failed);
+    if (failed) {
+      return failure("--out '" + options.folder + "': " + failed.message());
+    }
+  }
   const auto* const subject = std::ranges::find(kSubjects, options.subject, &Subject::name);
   const auto report = subject->report(options);
   if (!report) {

@@ -99,6 +99,16 @@ TEST(Program, SaysWhyASampleCannotBeWritten) {
   }
 }
 
+TEST(Program, SaysBeforeItMeasuresThatAReportCannotBeWritten) {
+  const TestFolder folder;
+  const std::string file = folder.makeFile("file", "");
+  const Outcome failed = run(folder.path(), {"accuracy", "tf", "--out", file + "/reports"});
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_EQ(failed.out, "");
+  expectOneLine(failed);
+  EXPECT_THAT(failed.err, HasSubstr("file/reports"));
+}
+
 TEST(Program, TakesTheSampleOptions) {
   const TestFolder folder;
   const Outcome made = run(folder.path(), {"sample", "a.mcap", "--seconds", "0.5", "--points", "64", "--seed", "9"});

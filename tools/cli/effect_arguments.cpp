@@ -1,6 +1,7 @@
 #include "tools/cli/effect_arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -15,12 +16,14 @@ using scenegraph::ViewEffects;
 
 constexpr std::array<std::string_view, 3> kFlags{"ssao", "edl", "dither"};
 
-/// "Darkens corners; [:radius=,samples=]".
-std::string helpOf(std::string_view name) {
+/// "Darkens corners; [:radius=,samples=]": all settings but the one that the option's own value is.
+std::string helpOf(std::string_view name, std::string_view value_key = {}) {
   const EffectType* const type = scenegraph::findEffectType(name);
   std::string keys;
   for (const auto& spec : type->specs) {
-    keys += (keys.empty() ? " [:" : ",") + spec.key + "=";
+    if (spec.key != value_key) {
+      keys += (keys.empty() ? " [:" : ",") + spec.key + "=";
+    }
   }
   return std::string(type->label) + ": " + std::string(type->help) + (keys.empty() ? "" : keys + "...]");
 }
@@ -32,6 +35,9 @@ Result<void> switchOn(ViewEffects& effects, const std::string& name, const std::
     const auto settings = parseSettings(option + " '" + std::string(text) + "'", text.substr(colon + 1));
     if (!settings) {
       return std::unexpected(settings.error());
+    }
+    if (scenegraph::findEffectType(name)->specs.empty()) {
+      return usageError(option + " has no settings");
     }
     for (const auto& [key, value] : *settings) {
       if (!more.emplace(key, value).second) {
@@ -52,10 +58,10 @@ EffectArguments::EffectArguments(CLI::App& command) {
   for (const std::string_view name : kFlags) {
     command.add_flag("--" + std::string(name), flags_[std::string(name)], helpOf(name));
   }
-  command.add_option("--tonemap", tonemap_, helpOf("tonemap"))->type_name("none|aces|neutral");
+  command.add_option("--tonemap", tonemap_, helpOf("tonemap", "curve"))->type_name("none|aces|neutral");
   command.add_option("--exposure", exposure_, "Steps of exposure before the tone curve, each doubling the light")
       ->type_name("EV");
-  command.add_option("--aa", aa_, helpOf("aa"))->type_name("none|fxaa|msaa|ssaa");
+  command.add_option("--aa", aa_, helpOf("aa", "mode"))->type_name("none|fxaa|msaa|ssaa");
 }
 
 std::vector<std::string> EffectArguments::spelledOut(const std::vector<std::string>& words) {
@@ -106,9 +112,16 @@ Result<ViewEffects> EffectArguments::effects(ViewEffects effects) const {
     const SettingTexts kept = effects.settings("tonemap");
     effects.setOn("tonemap", kept.at("curve") != "none" || kept.at("exposure") != "0");
   }
+  const std::string mode = aa_.substr(0, aa_.find(':'));
   if (aa_ == "none") {
     effects.setOn("aa", false);
-  } else if (const std::string mode = aa_.substr(0, aa_.find(':')); !aa_.empty()) {
+  } else if (mode == "none") {
+    return usageError("--aa none has no settings");
+  } else if (!aa_.empty()) {
+    const auto& modes = scenegraph::findEffectType("aa")->specs.front().choices;
+    if (std::ranges::find(modes, mode) == modes.end()) {
+      return usageError("--aa '" + mode + "' is none of none, fxaa, msaa, ssaa");
+    }
     if (const auto done = switchOn(effects, "aa", "--aa", aa_, {{"mode", mode}}); !done) {
       return std::unexpected(done.error());
     }

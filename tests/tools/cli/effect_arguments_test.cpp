@@ -60,12 +60,13 @@ TEST(EffectArguments, MistakesAreNamed) {
       {{"--ssao:radios=1"}, "radios"},
       {{"--ssao:radius"}, "key=value"},
       {{"--ssao=5"}, "--ssao"},
-      {{"--dither:bits=4"}, "bits"},
+      {{"--dither:bits=4"}, "--dither has no settings"},
       {{"--tonemap", "filmic"}, "filmic"},
       {{"--tonemap", "aces:curve=none"}, "twice"},
       {{"--exposure", "bright"}, "bright"},
       {{"--exposure", "99"}, "exposure"},
-      {{"--aa", "taa"}, "taa"},
+      {{"--aa", "taa"}, "none, fxaa, msaa, ssaa"},
+      {{"--aa", "none:samples=4"}, "--aa none has no settings"},
       {{"--aa", "msaa:samples=1"}, "samples"}};
   for (const auto& [words, named] : mistakes) {
     const auto refused = parse(words);

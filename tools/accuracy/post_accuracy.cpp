@@ -26,7 +26,8 @@ using scenegraph::ViewEffects;
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 360;
-constexpr double kStep = 1.0 / 255.0;  // of a byte: what nobody sees
+constexpr double kStep = 1.0 / 255.0;       // of a byte: what nobody sees
+constexpr double kUnnoticed = 1.6 * kStep;  // as noise from pixel to pixel
 constexpr std::array<const char*, 3> kRadii{"0.25", "0.5", "1"};
 
 /// A chain to be measured; the place of its curve in the legend.
@@ -236,11 +237,11 @@ std::string argumentOf(const std::vector<PostRow>& rows) {
   const ViewEffects effects;
   const SettingTexts ssao = effects.settings("ssao");
   for (const char* radius : kRadii) {
-    line(ssaoSubject(radius), 1.6 * kStep,
+    line(ssaoSubject(radius), kUnnoticed,
          "smoothing errs more than it saves; without, the fewest within 1.6 steps of a byte",
          ssao.at("samples") + " samples" + (ssao.at("smoothing") == "true" ? "" : ", not smoothed"), ", not smoothed");
   }
-  line("eye-dome lighting", 1.5 * kStep, "the fewest within a step and a half of a byte",
+  line("eye-dome lighting", kUnnoticed, "the fewest within 1.6 steps of a byte",
        effects.settings("edl").at("neighbours") + " neighbours");
   line("target formats", 0.25 * kStep, "the fewest bytes within a quarter of a step, as passes add up", "RGBA16F");
   const SettingTexts aa = effects.settings("aa");

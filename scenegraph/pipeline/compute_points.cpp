@@ -16,18 +16,21 @@ namespace {
 
 namespace glsl = shaders::stillframe_render;
 
-/// Where the shaders look for their buffers.
-enum Binding : GLuint {
-  kPositions = 0,
-  kDepthsOrValues = 1,
-  kGroupsOrColors = 2,
-  kNearest = 3,
-  kNumbers = 4,
-  kTable = 5,
-  kBytes = 6
-};
-/// Buffers of our own.
-enum Own : std::size_t { kGroupsBuffer, kNearestBuffer, kNumbersBuffer, kTableBuffer, kBytesBuffer, kOwnBuffers };
+// Where the shaders look for their buffers.
+constexpr GLuint kPositions = 0;
+constexpr GLuint kDepthsOrValues = 1;
+constexpr GLuint kGroupsOrColors = 2;
+constexpr GLuint kNearest = 3;
+constexpr GLuint kNumbers = 4;
+constexpr GLuint kTable = 5;
+constexpr GLuint kBytes = 6;
+// Buffers of our own.
+constexpr std::size_t kGroupsBuffer = 0;
+constexpr std::size_t kNearestBuffer = 1;
+constexpr std::size_t kNumbersBuffer = 2;
+constexpr std::size_t kTableBuffer = 3;
+constexpr std::size_t kBytesBuffer = 4;
+constexpr std::size_t kOwnBuffers = 5;
 
 constexpr GLuint kMostWorkGroups = 32768;  // on an axis; every driver has 65535
 constexpr std::size_t kMostBytesAPoint = 12;

@@ -22,6 +22,7 @@ TEST(EffectPanel, ListsEveryEffectWithItsSettings) {
     const std::string name(type.name);
     ASSERT_NE(panel.item(name), nullptr);
     EXPECT_EQ(panel.item(name)->checkState(0), Qt::Unchecked);
+    EXPECT_TRUE(panel.item(name)->isFirstColumnSpanned()) << "no label is cut off for a column without anything";
     EXPECT_EQ(static_cast<std::size_t>(panel.item(name)->childCount()), type.specs.size());
   }
 }

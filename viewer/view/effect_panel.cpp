@@ -35,7 +35,7 @@ void EffectPanel::addRow(const scenegraph::EffectType& type) {
   row.item->setText(0, toQString(type.label));
   row.item->setToolTip(0, toQString(type.help));
   row.item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
-  row.item->setFirstColumnSpanned(type.specs.empty());
+  row.item->setFirstColumnSpanned(true);
   for (const scenegraph::SettingSpec& spec : type.specs) {
     auto* item = new QTreeWidgetItem(row.item);
     item->setText(0, QString::fromStdString(spec.label));

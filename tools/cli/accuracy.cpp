@@ -97,6 +97,7 @@ struct Subject {
   const char* name;
   const char* help;
   Result<AccuracyReport> (*report)(const AccuracyOptions& options);
+  bool takes_file = false;
 };
 
 constexpr std::array kSubjects{
@@ -104,10 +105,15 @@ constexpr std::array kSubjects{
     Subject{"post", "the post passes: occlusion, eye-dome lighting, target formats, anti-aliasing", &reportOfPost},
     Subject{"transparency", "putting only so many blended fragments of a pixel in order", &reportOfTransparency},
     Subject{"depth", "turning round the lens of a depth camera", &reportOfDepth},
-    Subject{"points", "drawing fewer points, by each rasteriser, of FILE or of a sample", &reportOfPoints},
+    Subject{"points", "drawing fewer points, by each rasteriser, of FILE or of a sample", &reportOfPoints, true},
 };
 
 Result<void> runAccuracy(const AccuracyOptions& options) {
+  const auto* const subject = std::ranges::find(kSubjects, options.subject, &Subject::name);
+  if (!options.file.empty() && !subject->takes_file) {
+    return usageError("accuracy " + options.subject + " is measured on no recording; '" + printable(options.file) +
+                      "' is one too many");
+  }
   if (!options.folder.empty()) {  // said now, not after minutes of measuring
     std::error_code failed;
     std::filesystem::create_directories(options.folder, failed);
@@ -115,7 +121,6 @@ Result<void> runAccuracy(const AccuracyOptions& options) {
       return failure("--out '" + options.folder + "': " + failed.message());
     }
   }
-  const auto* const subject = std::ranges::find(kSubjects, options.subject, &Subject::name);
   const auto report = subject->report(options);
   if (!report) {
     return std::unexpected(report.error());

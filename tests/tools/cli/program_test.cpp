@@ -62,6 +62,7 @@ TEST(Program, RefusesWhatItDoesNotUnderstand) {
       {"sample", "a.mcap", "--seconds", "-1"},
       {"sample", "a.mcap", "--seconds", "1e9"},
       {"accuracy", "luck"},
+      {"accuracy", "tf", "a.mcap"},
       {"bench", "--scrub"},
       {"bench", "--only", "luck"},
       {"view", "--views", "0"},

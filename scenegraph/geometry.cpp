@@ -15,9 +15,11 @@ namespace {
 /// what it writes can be kept instead.
 std::string listable(const std::string& fragment_source) {
   const std::size_t first_line = fragment_source.find('\n') + 1;
+  const bool has_own_depth = fragment_source.contains("gl_FragDepth");
   return fragment_source.substr(0, first_line) +
-         "#pragma import_defines(SF_LISTED)\n#ifdef SF_LISTED\n#define main sfMain\n#endif\n" +
-         fragment_source.substr(first_line) + shaders::stillframe_geometry::k_listed_glsl;
+         "#pragma import_defines(SF_LISTED, SF_SAMPLED)\n#ifdef SF_LISTED\n#define main sfMain\n#endif\n" +
+         (has_own_depth ? "#define SF_OWN_DEPTH\n" : "") + fragment_source.substr(first_line) +
+         shaders::stillframe_geometry::k_listed_glsl;
 }
 
 }  // namespace

@@ -87,6 +87,8 @@ void bindNumbers(std::uint32_t unit, std::uint32_t texture, int channels) {
 
 void finishImages() { glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT); }
 
+void finishTargets() { glTextureBarrier(); }
+
 std::uint32_t readNumber(std::uint32_t texture) {
   std::uint32_t number = 0;
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);

@@ -28,6 +28,8 @@ void clearNumbers(std::uint32_t texture);
 void bindNumbers(std::uint32_t unit, std::uint32_t texture, int channels);
 /// What shaders wrote to images before is seen by shaders, and by reads and clears, after.
 void finishImages();
+/// What was drawn into a texture before is read from it after, though it stays the target.
+void finishTargets();
 /// The first number of a texture of one; waits for the GPU.
 [[nodiscard]] std::uint32_t readNumber(std::uint32_t texture);
 /// Texels of level 0 of a colour texture as RGBA, bottom row first; waits for the GPU.

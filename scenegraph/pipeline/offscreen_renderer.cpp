@@ -49,6 +49,7 @@ std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const
   statistics_.passes = pipeline_->passes();
   statistics_.points = pipeline_->pointProgress();
   statistics_.samples = pipeline_->samples();
+  statistics_.blended_bands = pipeline_->blendedBands();
   const auto read_start = std::chrono::steady_clock::now();
   auto picture = readPicture(*pipeline_, options);
   statistics_.read_back_ms = millisecondsSince(read_start);

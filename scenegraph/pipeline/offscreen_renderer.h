@@ -23,6 +23,7 @@ struct FrameStatistics {
   std::vector<std::string> passes;
   std::optional<PointProgress> points;  ///< where OpenGL did not draw them as primitives
   int samples = 1;                      ///< of multisampling, a pixel
+  int blended_bands = 0;                ///< ViewPipeline::blendedBands()
 };
 
 /// Pictures of scene graphs without a window: `stillframe render`, tests, servers. Any one thread.

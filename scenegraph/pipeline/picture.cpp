@@ -87,7 +87,7 @@ std::expected<void, Status> checkPicture(const RenderOptions& options, int large
 std::expected<void, Status> drawPicture(ViewPipeline& pipeline, const RenderOptions& options) {
   pipeline.setBackground(options.background.a < 1.0F ? kBlack : options.background);
   pipeline.setPointWay(options.points);
-  pipeline.setMostSorted(options.most_sorted);
+  pipeline.setBlendLimits(options.blend);
   pipeline.setPointLimits(options.point_limits);
   pipeline.setPostChain(options.post);
   return pipeline.renderLinear(options.width, options.height);

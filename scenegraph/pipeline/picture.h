@@ -29,8 +29,8 @@ struct RenderOptions {
   Color background{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};  ///< alpha below 1: the picture has alpha
   PostChain post = {};
   PointWay points = PointWay::Auto;  ///< who draws opaque points
-  int most_sorted = kMostSorted;     ///< blended fragments of a sample that are put in order (ViewPipeline)
-  PointLimits point_limits = {};     ///< how many points, where they are not drawn by OpenGL
+  BlendLimits blend = {};
+  PointLimits point_limits = {};  ///< how many points, where they are not drawn by OpenGL
 };
 
 /// 32 bytes a pixel are needed without passes: 2 GiB.

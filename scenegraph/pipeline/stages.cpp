@@ -203,7 +203,7 @@ void Stages::addScene(osg::Group& root, const PostChain& chain) {
   state.addUniform(new osg::Uniform{"u_linear_output", 1.0F});
   state.addUniform(new osg::Uniform{"u_viewport_height_px", static_cast<float>(height)});
   scene_camera_->addChild(&root);
-  transparency_ = new Transparency{width, height, samples_, options_.most_sorted};
+  transparency_ = new Transparency{width, height, samples_, target(depthTarget()), options_.blend};
   scene_camera_->setCullCallback(new AdoptBlended{transparency_});
   group_->addChild(scene_camera_);
   if (samples_ > 1) {

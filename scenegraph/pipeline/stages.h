@@ -30,7 +30,7 @@ class Stages {
     int height_px = 0;
     int max_samples = 1;  ///< of the driver; more are not asked for
     unsigned context_id = 0;
-    int most_sorted = 0;    ///< blended fragments of a sample that are put in order
+    BlendLimits blend = {};
     bool presents = false;  ///< ends with the sRGB picture in the viewer's framebuffer
   };
   /// Error "UnknownInput": a pass reads what no earlier one wrote. The context must be current.

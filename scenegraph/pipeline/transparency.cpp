@@ -17,16 +17,20 @@ namespace stillframe::scenegraph {
 namespace {
 
 constexpr int kTransparentBin = 10;  // of osg::StateSet::TRANSPARENT_BIN
+constexpr unsigned kDepthUnit = 7;   // of listed.glsl
 constexpr std::uint32_t kListWidth = 2048;
 constexpr std::uint32_t kFewestFragments = 1U << 18U;
-constexpr std::uint32_t kMostFragments = 1U << 24U;
 constexpr auto kWins = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
 constexpr auto kOff = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
 
 /// What is collected writes neither colours nor depth.
-osg::ref_ptr<osg::StateSet> makeCollecting() {
+osg::ref_ptr<osg::StateSet> makeCollecting(const osg::ref_ptr<osg::Texture>& depths, bool is_sampled) {
   osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
   state->setDefine("SF_LISTED", osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+  if (is_sampled) {
+    state->setDefine("SF_SAMPLED", osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+  }
+  state->setTextureAttribute(kDepthUnit, depths, kWins);
   state->setAttribute(new osg::ColorMask{false, false, false, false}, kWins);
   state->setAttribute(new osg::Depth{osg::Depth::GREATER, 0.0, 1.0, false}, kWins);
   state->setMode(GL_BLEND, kOff);
@@ -47,20 +51,30 @@ osg::ref_ptr<osg::StateSet> makeLayingOver(int most_sorted) {
 
 }  // namespace
 
-Transparency::Transparency(int width_px, int height_px, int samples, int most_sorted)
+Transparency::Transparency(int width_px, int height_px, int samples, const osg::ref_ptr<osg::Texture>& depths,
+                           const BlendLimits& limits)
     : width_px_(width_px),
       height_px_(height_px),
       samples_(samples),
-      collecting_(makeCollecting()),
-      laying_over_(makeFullScreenTriangle(makeLayingOver(most_sorted))) {}
+      most_fragments_(std::bit_ceil(std::max(limits.most_fragments, kListWidth))),
+      collecting_(makeCollecting(depths, samples > 1)),
+      laying_over_(makeFullScreenTriangle(makeLayingOver(limits.most_sorted))) {}
 
 void Transparency::adopt(osgUtil::CullVisitor& cull) {
   auto& bins = cull.getCurrentRenderBin()->getRenderBinList();
   const auto found = bins.find(kTransparentBin);
   is_in_use_ = found != bins.end();
-  if (is_in_use_) {
-    found->second->setDrawCallback(this);
+  bands_ = 0;
+  if (!is_in_use_) {
+    return;
   }
+  for (auto flat = bins.upper_bound(0); flat != found; ++flat) {
+    for (osgUtil::StateGraph* const graph : flat->second->getStateGraphList()) {
+      found->second->addStateGraph(graph);
+    }
+    flat->second->getStateGraphList().clear();
+  }
+  found->second->setDrawCallback(this);
 }
 
 void Transparency::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& render_info,
@@ -102,7 +116,7 @@ void Transparency::makeLists() {
 
 /// False when there is room for no more than there is.
 bool Transparency::grow(std::uint32_t fragments) {
-  const std::uint32_t wanted = std::min(std::bit_ceil(fragments), kMostFragments);
+  const std::uint32_t wanted = std::min(std::bit_ceil(fragments), most_fragments_);
   if (wanted <= capacity_) {
     return false;
   }
@@ -125,6 +139,7 @@ void Transparency::collect(osgUtil::RenderBin& bin, osg::RenderInfo& render_info
   gl::bindNumbers(0, heads_, 1);
   gl::bindNumbers(1, count_, 1);
   gl::bindNumbers(2, fragments_, 4);
+  gl::finishTargets();
   collecting_->setAttributeAndModes(new osg::Scissor{0, rows.first, width_px_, rows.count}, kWins);
   bin.setStateSet(collecting_);
   bin.drawImplementation(render_info, previous);

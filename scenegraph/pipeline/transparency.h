@@ -3,9 +3,12 @@
 #include <cstdint>
 #include <osg/Geometry>
 #include <osg/StateSet>
+#include <osg/Texture>
 #include <osg/ref_ptr>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderBin>
+
+#include "scenegraph/pipeline/blend_limits.h"
 
 namespace stillframe::scenegraph {
 
@@ -14,13 +17,16 @@ namespace stillframe::scenegraph {
 /// Its fragments are not blended as they come but kept in lists, one for each sample, by the shaders as they are with
 /// SF_LISTED defined; a full-screen step then puts each list in order of depth and lays it over the picture. So things
 /// that run through each other come out right, and no order of layers or of triangles changes a pixel; depth is that of
-/// the nearest. A frame without them costs nothing: not a target, not a shader. With them 16 bytes a fragment, from
-/// 4 MiB to 256 MiB; a picture with more is drawn in bands. The nearest `most_sorted` fragments of a sample are exact,
-/// the rest counts by its mean: `stillframe accuracy transparency` has the curve. A wait for the GPU a frame. Thread of
-/// the context only.
+/// the nearest. Flat layers, which bins 1 to 9 keep in their order (nodes/flat_order.h), go into the lists too, with
+/// the depth they write themselves; without anything else that is blended they stay as they are. A frame without them
+/// costs nothing: not a target, not a shader. With them 16 bytes a fragment, from 4 MiB to 256 MiB; a picture with more
+/// is drawn in bands. The nearest fragments of a sample are exact, beyond BlendLimits the rest counts by its mean:
+/// `stillframe accuracy transparency` has the curve. A wait for the GPU a frame. Thread of the context only.
 class Transparency : public osgUtil::RenderBin::DrawCallback {
  public:
-  Transparency(int width_px, int height_px, int samples, int most_sorted);
+  /// `depths`: the target of the scene's depth, with as many samples.
+  Transparency(int width_px, int height_px, int samples, const osg::ref_ptr<osg::Texture>& depths,
+               const BlendLimits& limits);
 
   /// To be called when `cull` has been through the scene: takes over the bin of what is blended, if there is one.
   void adopt(osgUtil::CullVisitor& cull);
@@ -28,7 +34,7 @@ class Transparency : public osgUtil::RenderBin::DrawCallback {
                           osgUtil::RenderLeaf*& previous) override;
   /// Whether the last frame had anything blended.
   [[nodiscard]] bool isInUse() const noexcept { return is_in_use_; }
-  /// Bands that the last frame was drawn in.
+  /// Bands that the last frame was drawn in; 0 without anything blended.
   [[nodiscard]] int bands() const noexcept { return bands_; }
   /// The context must be current.
   void release(osg::State& state);
@@ -47,6 +53,7 @@ class Transparency : public osgUtil::RenderBin::DrawCallback {
   int width_px_;
   int height_px_;
   int samples_;
+  std::uint32_t most_fragments_;
   bool is_in_use_ = false;
   int bands_ = 0;
   osg::ref_ptr<osg::StateSet> collecting_;

@@ -50,7 +50,7 @@ struct ViewPipeline::Impl {
   int width_px = 0;
   int height_px = 0;
   bool presents = false;
-  int most_sorted = kMostSorted;
+  BlendLimits blend;
   PointWay point_way = PointWay::Auto;
   PointLimits point_limits;
   double rest_ms = 0.0;  // of a frame beside its points, measured where there is a budget for both
@@ -113,7 +113,7 @@ std::expected<void, Status> ViewPipeline::Impl::makeStages() {
                             .height_px = height_px,
                             .max_samples = max_samples,
                             .context_id = contextId(),
-                            .most_sorted = most_sorted,
+                            .blend = blend,
                             .presents = presents});
   if (!made) {
     return std::unexpected(made.error());
@@ -307,9 +307,9 @@ void ViewPipeline::setPostChain(PostChain chain) {
   impl_->chain = std::move(chain);
 }
 
-void ViewPipeline::setMostSorted(int fragments) {
-  impl_->is_chain_new = impl_->is_chain_new || fragments != impl_->most_sorted;
-  impl_->most_sorted = fragments;
+void ViewPipeline::setBlendLimits(const BlendLimits& limits) {
+  impl_->is_chain_new = impl_->is_chain_new || limits != impl_->blend;
+  impl_->blend = limits;
 }
 
 void ViewPipeline::setPointWay(PointWay way) { impl_->point_way = way; }
@@ -335,9 +335,8 @@ LinearFrame ViewPipeline::readLinear() const {
 }
 
 const std::vector<std::string>& ViewPipeline::passes() const noexcept { return impl_->passes; }
-
 int ViewPipeline::samples() const noexcept { return impl_->stages ? impl_->stages->samples() : 1; }
-
+int ViewPipeline::blendedBands() const noexcept { return impl_->stages ? impl_->stages->transparency().bands() : 0; }
 const glm::dmat4& ViewPipeline::projectionMatrix() const noexcept { return impl_->projection_matrix; }
 
 std::vector<PickHit> ViewPipeline::pick(int x_px, int y_px, int reach_px) {

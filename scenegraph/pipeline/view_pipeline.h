@@ -11,6 +11,7 @@
 
 #include "scenegraph/camera/camera.h"
 #include "scenegraph/pick/pick_hit.h"
+#include "scenegraph/pipeline/blend_limits.h"
 #include "scenegraph/pipeline/point_stage.h"
 #include "scenegraph/pipeline/post_chain.h"
 #include "scenegraph/settings.h"
@@ -23,9 +24,6 @@ struct LinearFrame {
   std::vector<float> rgba;   ///< scene-linear, 4 a pixel, of the last pass before present
   std::vector<float> depth;  ///< reverse-Z of the scene pass, 0 where nothing was drawn
 };
-
-/// Blended fragments of a sample that are put in order, unless somebody asks for another number.
-inline constexpr int kMostSorted = 64;
 
 /// Who draws opaque points.
 enum class PointWay : std::uint8_t { Auto, OpenGl, Cpu, Compute };
@@ -52,9 +50,8 @@ class ViewPipeline {
   /// costs nothing; any other makes targets and shaders anew.
   void setPostChain(PostChain chain);
 
-  /// Of what is blended, how many fragments of a sample are put in order; those behind them count by their mean. 0:
-  /// none is, which is weighted blending. kMostSorted at first.
-  void setMostSorted(int fragments);
+  /// How far what is blended is put in order.
+  void setBlendLimits(const BlendLimits& limits);
 
   /// How opaque points are drawn: by OpenGL as primitives, on the CPU, or by compute shaders; the picture is the same.
   /// Auto takes the CPU where OpenGL is itself software, compute shaders on a GPU where all points are small, and
@@ -78,6 +75,8 @@ class ViewPipeline {
   [[nodiscard]] const std::vector<std::string>& passes() const noexcept;
   /// Samples a pixel of the last render: 1, or what the chain asked for as far as the driver has them.
   [[nodiscard]] int samples() const noexcept;
+  /// Bands that what is blended was drawn in by the last render: 0 when nothing was, 1 unless there was very much.
+  [[nodiscard]] int blendedBands() const noexcept;
   /// The projection of the last render, for picking and for metres from depth.
   [[nodiscard]] const glm::dmat4& projectionMatrix() const noexcept;
 

@@ -70,9 +70,11 @@ osg::ref_ptr<osg::Group> makePanes(const Case& wanted) {
 }
 
 std::expected<Picture, Status> draw(scenegraph::OffscreenRenderer& renderer, osg::Group& scene, int most_sorted) {
-  return renderer.render(
-      scene, {.eye_from_fixed = scenegraph::lookAt({0, 0, 4}, {0, 0, 0}, {0, 1, 0})},
-      {.width = kWidth, .height = kHeight, .background = {0.12F, 0.13F, 0.15F, 1.0F}, .most_sorted = most_sorted});
+  return renderer.render(scene, {.eye_from_fixed = scenegraph::lookAt({0, 0, 4}, {0, 0, 0}, {0, 1, 0})},
+                         {.width = kWidth,
+                          .height = kHeight,
+                          .background = {0.12F, 0.13F, 0.15F, 1.0F},
+                          .blend = {.most_sorted = most_sorted}});
 }
 
 void compare(const Picture& picture, const Picture& reference, TransparencyRow& row) {
@@ -105,7 +107,7 @@ std::expected<TransparencyReport, Status> transparencyAccuracy(scenegraph::Offsc
           ", by `stillframe accuracy transparency`. Panes that run through each other; of each pixel's fragments the "
           "nearest so many are put in order, and those behind count by their mean (0 in order: weighted blending). "
           "Errors are of linear light, white = 1 (a step of a byte is 3.9e-3), against all of them in order. In use: " +
-          std::to_string(scenegraph::kMostSorted) + ".\n";
+          std::to_string(scenegraph::BlendLimits{}.most_sorted) + ".\n";
   PlotFigure figure{.title = "Transparency: error against run time",
                     .caption = "On " + name + ". Each curve: fragments in order growing from left to right.",
                     .x_label = "time of the frame (ms)",

@@ -18,10 +18,10 @@ TEST_F(TransparencyAccuracy, HasNoErrorWhereAllIsInOrderAndLittleWhereWhatMatter
     } else if (row.most_sorted == 0) {
       EXPECT_GT(row.max_error, 0.02) << name;
     }
-    if (row.most_sorted == scenegraph::kMostSorted) {
+    if (row.most_sorted == scenegraph::BlendLimits{}.most_sorted) {
       has_default = true;
       // A step of a byte; of more layers that each hide next to nothing, those behind make three or so.
-      EXPECT_LT(row.max_error, row.layers > scenegraph::kMostSorted ? 3.0 / 255.0 : 1.0 / 255.0) << name;
+      EXPECT_LT(row.max_error, row.layers > scenegraph::BlendLimits{}.most_sorted ? 3.0 / 255.0 : 1.0 / 255.0) << name;
     }
   }
   EXPECT_TRUE(has_default);

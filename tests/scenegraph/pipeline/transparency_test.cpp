@@ -57,7 +57,7 @@ class TransparencyTest : public test::OffscreenTest {
  protected:
   /// From above, 2 x 2 metres, no perspective.
   Picture draw(const std::vector<osg::ref_ptr<osg::Node>>& nodes, int size = 48, const PostChain& post = {},
-               int most_sorted = kMostSorted) {
+               const BlendLimits& blend = {}) {
     const osg::ref_ptr<osg::Group> root = new osg::Group;
     for (const auto& node : nodes) {
       root->addChild(node);
@@ -65,16 +65,14 @@ class TransparencyTest : public test::OffscreenTest {
     CameraView view{.eye_from_fixed = lookAt({0, 0, 10}, {0, 0, 0}, {0, 1, 0})};
     view.is_orthographic = true;
     view.vertical_extent_m = 2.0;
-    return render(
-        *root, view,
-        {.width = size, .height = size, .background = {0, 0, 0, 1}, .post = post, .most_sorted = most_sorted});
+    return render(*root, view, {.width = size, .height = size, .background = {0, 0, 0, 1}, .post = post, .blend = blend});
   }
-  Picture draw(const std::vector<Pane>& panes, int size = 48, int most_sorted = kMostSorted) {
+  Picture draw(const std::vector<Pane>& panes, int size = 48, const BlendLimits& blend = {}) {
     std::vector<osg::ref_ptr<osg::Node>> nodes;
     for (const Pane& pane : panes) {
       nodes.push_back(pane.node());
     }
-    return draw(nodes, size, {}, most_sorted);
+    return draw(nodes, size, {}, blend);
   }
 };
 
@@ -189,7 +187,7 @@ TEST_F(TransparencyTest, FragmentsBeyondThoseInOrderCountByTheirMeanWhateverThei
   EXPECT_LT(largestDifference(first, draw(panes, 16)), 1e-3F);
   EXPECT_LT(largestError(first, painted(panes, 16)), 0.02F);
   // Nothing in order: the mean of all, which hides as much.
-  const Picture weighted = draw(panes, 16, 0);
+  const Picture weighted = draw(panes, 16, {.most_sorted = 0});
   EXPECT_LT(largestError(weighted, painted(panes, 16)), 0.06F);
   EXPECT_GT(largestDifference(first, weighted), 1e-3F);
 }
@@ -200,6 +198,33 @@ TEST_F(TransparencyTest, ListsGrowWithTheirFragmentsWithinTheFrame) {
     pane.half = 3.0F;
   }
   EXPECT_LT(largestError(draw(panes, 256), painted(panes, 256)), 2e-3F);
+}
+
+TEST_F(TransparencyTest, FragmentsBeyondTheMemoryForThemAreDrawnInBandsBitForBit) {
+  std::vector<Pane> panes = randomPanes(20, 3);
+  panes.resize(14);
+  panes.push_back(
+      {.y = -0.7F, .half = 0.2F, .z = -1.0F, .color = {1, 1, 1, 0.3F}});  // rows differ in how much they have
+  const Picture whole = draw(panes, 96);
+  EXPECT_EQ(renderer_->lastFrame().blended_bands, 1);
+  int bands = 1;
+  for (const std::uint32_t room : {1U << 15U, 1U << 13U, 1U << 11U}) {
+    const Picture banded = draw(panes, 96, {.most_fragments = room});
+    EXPECT_GT(renderer_->lastFrame().blended_bands, bands) << room;
+    bands = renderer_->lastFrame().blended_bands;
+    EXPECT_TRUE(whole.rgba == banded.rgba) << room << " off by " << largestDifference(whole, banded);
+    EXPECT_TRUE(whole.depth_m == banded.depth_m) << room;
+  }
+  EXPECT_LT(largestError(whole, painted(panes, 96)), 2e-3F);
+}
+
+TEST_F(TransparencyTest, ARowWithMoreThanThereIsRoomForLeavesOutWhatIsTooMuchAndNothingElse) {
+  std::vector<Pane> panes(40, {.half = 3.0F, .color = {0, 1, 0, 0.5F}});  // 96 x 40 in a row, room for 2048
+  for (std::size_t i = 0; i < panes.size(); ++i) {
+    panes[i].z = 0.02F * static_cast<float>(i);
+  }
+  const Picture picture = draw(panes, 96, {.most_fragments = 1});
+  EXPECT_TRUE(std::ranges::all_of(picture.rgba, [](float value) { return value >= 0.0F && value <= 1.0F; }));
 }
 
 TEST_F(TransparencyTest, SamplesOfAPixelAreEachPutInOrder) {

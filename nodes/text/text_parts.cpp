@@ -39,6 +39,9 @@ osg::ref_ptr<osgText::Text> TextParts::makeText() {
   if (font_.valid()) {
     text->setFont(font_);
   }
+  // What its quads cover is not all glyph: depth of them would leave holes in what is blended behind, by the order
+  // drawn.
+  text->setEnableDepthWrites(false);
   // Its true size depends on the camera: a bound from the text would cull it wrongly.
   text->setCullingActive(false);
   return text;

@@ -4,4 +4,9 @@ uniform sampler2D u_glyphs;
 in vec2 v_glyph;
 in vec4 v_color;
 
-void main() { gl_FragColor = vec4(v_color.rgb, v_color.a * texture(u_glyphs, v_glyph).a); }
+void main() {
+  gl_FragColor = vec4(v_color.rgb, v_color.a * texture(u_glyphs, v_glyph).a);
+  if (!(gl_FragColor.a > 0.0)) {
+    discard;  // quads reach beyond their glyphs; a plain viewer writes their depth
+  }
+}

@@ -8,6 +8,7 @@
 #include <osg/NodeVisitor>
 #include <osg/Transform>
 #include <osg/Viewport>
+#include <osgText/Text>
 #include <tuple>
 
 #include "scenegraph/geometry.h"
@@ -186,7 +187,15 @@ void IdPass::drawGl(const View& view, osg::RenderInfo& info) {
     state.pushStateSet(derived.state);
     state.applyModelViewMatrix(new osg::RefMatrix(one.eye_from_local));
     state.apply();
-    drawable.draw(info);
+    // A text sets the depth mask itself, whatever the state says.
+    auto* const text = dynamic_cast<osgText::Text*>(&drawable);
+    if (text != nullptr && !text->getEnableDepthWrites()) {
+      text->setEnableDepthWrites(true);
+      drawable.draw(info);
+      text->setEnableDepthWrites(false);
+    } else {
+      drawable.draw(info);
+    }
     state.popStateSetStackToSize(0);
   }
   state.popAllStateSets();

@@ -66,9 +66,14 @@ void writeMarker(const Marker& marker, ingest::CdrWriter& cdr) {
   for (const glm::dvec3& point : marker.points) {
     cdr.number(point.x).number(point.y).number(point.z);
   }
-  cdr.length(0).string("");                                                                // colors, texture_resource
-  cdr.header(0, "").string("").byteSequence({}).length(0);                                 // texture, uv_coordinates
-  cdr.string(marker.text).string("").string("").byteSequence({}).number(std::uint8_t{0});  // meshes
+  cdr.length(0).string(marker.texture_resource);  // no colours of points
+  cdr.header(0, "").string(marker.texture_png.empty() ? "" : "png").byteSequence(marker.texture_png);
+  cdr.length(marker.uvs.size());
+  for (const glm::vec2& uv : marker.uvs) {
+    cdr.number(uv.x).number(uv.y);
+  }
+  cdr.string(marker.text).string(marker.mesh_resource).string(marker.mesh_filename).byteSequence(marker.mesh_data);
+  cdr.number(std::uint8_t{0});  // a mesh has the marker's colour
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
@@ -15,7 +16,16 @@ namespace stillframe::sample {
 
 /// visualization_msgs/msg/Marker, what the recording uses of it.
 struct Marker {
-  enum class Type : std::int32_t { Arrow = 0, Cube = 1, Sphere = 2, Cylinder = 3, LineStrip = 4, Text = 9 };
+  enum class Type : std::int32_t {
+    Arrow = 0,
+    Cube = 1,
+    Sphere = 2,
+    Cylinder = 3,
+    LineStrip = 4,
+    Text = 9,
+    Mesh = 10,
+    TriangleList = 11
+  };
 
   std::int64_t stamp_ns = 0;
   std::string frame_id;
@@ -30,6 +40,12 @@ struct Marker {
   bool is_frame_locked = true;
   std::vector<glm::dvec3> points = {};
   std::string text = {};
+  std::vector<glm::vec2> uvs = {};  ///< one a point, v downwards
+  std::string texture_resource = {};
+  std::vector<std::byte> texture_png = {};  ///< of "embedded://..."
+  std::string mesh_resource = {};
+  std::string mesh_filename = {};  ///< of mesh_data
+  std::vector<std::byte> mesh_data = {};
 };
 
 [[nodiscard]] Ros2Type markerArrayType();

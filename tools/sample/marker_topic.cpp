@@ -2,13 +2,14 @@
 #include <cstdio>
 
 #include "tools/sample/marker_messages.h"
+#include "tools/sample/sign_markers.h"
 #include "tools/sample/topic.h"
 
 namespace stillframe::sample {
 namespace {
 
 /// What the robot makes of its surroundings, four times a second: the vehicle's box and name, where the robot is going,
-/// and a trail of crumbs that fade away after three seconds.
+/// and a trail of crumbs that fade away after three seconds. With the first message comes what stands about for good.
 class Markers final : public Topic {
  public:
   explicit Markers(const Stage& stage) : stage_(stage) {}
@@ -61,7 +62,14 @@ class Markers final : public Topic {
     crumb.scale = glm::dvec3(0.2);
     crumb.rgba = {0.9F, 0.3F, 0.6F, 1.0F};
     crumb.lifetime_ns = 3'000'000'000;
-    return serializeMarkerArray(std::array{box, name, heading, ahead, crumb});
+    std::vector<Marker> markers{box, name, heading, ahead, crumb};
+    if (elapsed_ns == 0) {  // what stays is said once
+      for (Marker& sign : makeSigns()) {
+        sign.stamp_ns = stage_.start_ns;
+        markers.push_back(std::move(sign));
+      }
+    }
+    return serializeMarkerArray(markers);
   }
 
  private:

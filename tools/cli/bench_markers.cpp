@@ -1,81 +1,107 @@
+#include <cstdint>
 #include <memory>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "nodes/markers/marker_picture.h"
-#include "nodes/markers/scene_history.h"
-#include "scenegraph/frame_graph.h"
+#include "nodes/registry.h"
+#include "scenegraph/executor.h"
+#include "scenegraph/objects/scene_entities.h"
+#include "scenegraph/scene.h"
+#include "tools/bench/memory_messages.h"
 #include "tools/cli/bench_results.h"
 
 namespace stillframe::cli {
 namespace {
 
-constexpr int kCubes = 100'000;
-constexpr int kChanged = kCubes / 100;
+constexpr int kAll = 100'000;
+constexpr int kChanged = kAll / 100;
+constexpr int kFew = 20;
+constexpr int kWhole = 5;
 
-using Scene = std::shared_ptr<const scenegraph::SceneEntities>;
+enum class Shape : std::uint8_t { Cube, Sphere, Arrow };
 
-/// Cubes of these ids at random places.
-Scene sceneOf(const std::vector<int>& ids, std::mt19937& random) {
+/// Entities of these ids at random places.
+scenegraph::AnyObject message(Shape shape, const std::vector<int>& ids, std::mt19937& random) {
   std::uniform_real_distribution<double> place(-50.0, 50.0);
-  auto scene = std::make_shared<scenegraph::SceneEntities>();
+  scenegraph::SceneEntities scene;
   for (const int id : ids) {
     scenegraph::SceneEntity entity;
     entity.id = std::to_string(id);
     entity.frame_id = "map";
     entity.is_frame_locked = true;
-    entity.cubes.push_back({.pose = {.translation = {place(random), place(random), place(random)}},
-                            .size = {0.2, 0.2, 0.2},
-                            .color = {1.0F, 0.5F, 0.1F, 1.0F}});
-    scene->steps.push_back({false, scene->entities.size()});
-    scene->entities.push_back(std::move(entity));
+    const tf::RigidTransform pose{.translation = {place(random), place(random), place(random)}};
+    const scenegraph::EntityColor color{1.0F, 0.5F, 0.1F, 1.0F};
+    if (shape == Shape::Cube) {
+      entity.cubes.push_back({.pose = pose, .size = {0.2, 0.2, 0.2}, .color = color});
+    } else if (shape == Shape::Sphere) {
+      entity.spheres.push_back({.pose = pose, .size = {0.2, 0.2, 0.2}, .color = color});
+    } else {
+      entity.arrows.push_back({.pose = pose,
+                               .shaft_length = 0.3,
+                               .shaft_diameter = 0.05,
+                               .head_length = 0.1,
+                               .head_diameter = 0.1,
+                               .color = color});
+    }
+    scene.steps.push_back({false, scene.entities.size()});
+    scene.entities.push_back(std::move(entity));
   }
-  return scene;
+  return scenegraph::AnyObject::make(std::move(scene));
+}
+
+/// Whole ticks: all made, then a hundredth of them changed, then all, then any of those hidden.
+void add(Shape shape, const std::string& name, std::vector<BenchResult>& results) {
+  std::mt19937 random(11);
+  std::vector<int> all(kAll);
+  for (int i = 0; i < kAll; ++i) {
+    all[static_cast<std::size_t>(i)] = i;
+  }
+  std::vector<scenegraph::AnyObject> messages{message(shape, all, random)};
+  for (int i = 0; i < kFew; ++i) {
+    std::vector<int> some(kChanged);
+    for (int& id : some) {
+      id = static_cast<int>(random() % kAll);
+    }
+    messages.push_back(message(shape, some, random));
+  }
+  for (int i = 0; i < kWhole; ++i) {
+    messages.push_back(message(shape, all, random));
+  }
+  const auto dataset = std::make_shared<scenegraph::Dataset>("bench");
+  bench::addTopic(*dataset, "/markers", scenegraph::ObjectType::SceneEntities, std::move(messages));
+  const auto executor = scenegraph::makeSynchronousExecutor();
+  scenegraph::Scene scene(dataset, nodes::layerTypes(), *executor);
+  scene.setFixedFrame("map");
+  const auto slot = scene.addLayer("/markers");
+  if (!slot) {
+    throw std::logic_error("the benchmark's markers have no layer");
+  }
+  std::int64_t time = 0;
+  const double made_s = secondsOf([&] { scene.update({time}); });
+  const double few_s = bestSecondsOf(kFew, [&] { scene.update({++time}); });
+  const double whole_s = bestSecondsOf(kWhole, [&] { scene.update({++time}); });
+  const scenegraph::LayerCounts expected{{"entities", kAll}, {"primitives", kAll}, {"hidden", 0}, {"draw_calls", 1}};
+  if ((*slot)->layer->counts() != expected) {
+    throw std::logic_error("the benchmark's markers were not drawn");
+  }
+  (*slot)->layer->setVisible(false);
+  scene.update({++time});
+  const double hidden_s = bestSecondsOf(100, [&] { scene.update({--time}); });
+  results.push_back({"markers, tick that makes 100 000 " + name, 1e3 * made_s, "ms"});
+  results.push_back({"markers, tick with 1 % of 100 000 " + name + " changed", 1e3 * few_s, "ms", 16.6});
+  results.push_back({"markers, tick with 1 % / with all " + name + " changed", few_s / whole_s, "", 0.1});
+  results.push_back({"markers, tick with 100 000 " + name + " hidden", 1e3 * hidden_s, "ms", 0.1});
 }
 
 }  // namespace
 
 void benchMarkers(std::vector<BenchResult>& results) {
-  std::mt19937 random(11);
-  std::vector<int> all(kCubes);
-  for (int i = 0; i < kCubes; ++i) {
-    all[static_cast<std::size_t>(i)] = i;
-  }
-  std::vector<Scene> messages{sceneOf(all, random)};
-  constexpr std::size_t kFew = 20;
-  for (std::size_t i = 0; i < kFew; ++i) {
-    std::vector<int> some(kChanged);
-    for (int& id : some) {
-      id = static_cast<int>(random() % kCubes);
-    }
-    messages.push_back(sceneOf(some, random));
-  }
-  constexpr std::size_t kWhole = 5;
-  messages.insert(messages.end(), kWhole, messages.front());
-
-  scenegraph::FrameGraph frames(std::make_shared<tf::TransformBuffer>());
-  nodes::MarkerPicture picture(frames, "/markers");
-  nodes::SceneHistory history;
-  const auto showFirst = [&](std::size_t count) {
-    picture.show(std::make_shared<const nodes::SceneState>(history.at(
-                     count, {static_cast<std::int64_t>(count)}, [](std::size_t place) { return place; },
-                     [&](std::size_t place) {
-                       return nodes::SceneMessage{{static_cast<std::int64_t>(place)}, place, 1000, messages[place]};
-                     })),
-                 {});
-  };
-  std::size_t count = 1;
-  const double made_s = secondsOf([&] { showFirst(count); });
-  const double few_s = bestSecondsOf(kFew, [&] { showFirst(++count); });
-  const double whole_s = bestSecondsOf(kWhole, [&] { showFirst(++count); });
-  if (picture.counts().entities != kCubes || picture.counts().draw_calls != 1) {
-    throw std::logic_error("the benchmark's markers were not drawn");
-  }
-  results.push_back({"markers, 100 000 cubes made", 1e3 * made_s, "ms"});
-  results.push_back({"markers, tick with 1 % of 100 000 changed", 1e3 * few_s, "ms"});
-  results.push_back({"markers, tick with 1 % / with all changed", few_s / whole_s, "", 0.1});
+  add(Shape::Cube, "cubes", results);
+  add(Shape::Sphere, "spheres", results);
+  add(Shape::Arrow, "arrows", results);
 }
 
 }  // namespace stillframe::cli

@@ -289,6 +289,22 @@ std::string RobotModelLayer::kinematicsText() const {
                              : "");
 }
 
+/// Why a link has no place, of a robot of which others have: by its frame, or by the joint above it.
+std::string RobotModelLayer::unplacedText(std::size_t link) const {
+  using enum tf::LookupError;
+  const bool is_known =
+      tally_.failure && tally_.failure->code != UnknownSource && tally_.failure->code != UnknownTarget;
+  const auto joint = std::ranges::find(scene_->robot().joints, link, &RobotJoint::child_link);
+  if (is_known || joint == scene_->robot().joints.end()) {
+    return tally_.failure ? scenegraph::placementStatus(context_->frames, nodes_[link].frame, *tally_.failure).message
+                          : "nothing tells where '" + nodes_[link].frame + "' is";
+  }
+  const std::string topic = feed_ ? feed_->topic() : "";
+  return "no transform names the frame '" + nodes_[link].frame + "', and no joint state" +
+         (topic.empty() ? "" : " on '" + topic + "'") + " tells of the joint '" + joint->name +
+         "'; the setting joints=zero shows it at zero";
+}
+
 Status RobotModelLayer::judge() const {
   if (scene_ == nullptr || loader_->status().level == StatusLevel::Error) {
     return loader_->status();
@@ -301,13 +317,9 @@ Status RobotModelLayer::judge() const {
   }
   const std::string sample = "'" + topic_ + "' at " + scenegraph::timeText(loader_->entry()->log_time) + ": ";
   if (tally_.first_unplaced) {
-    const LinkNode& first = nodes_[*tally_.first_unplaced];
-    const std::string reason = tally_.failure
-                                   ? scenegraph::placementStatus(context_->frames, first.frame, *tally_.failure).message
-                                   : "no joint state tells of the joint above '" + first.node->getName() + "'";
     return {StatusLevel::Warn, "LinksUnplaced",
             sample + std::to_string(nodes_.size() - tally_.placed) + " of " + std::to_string(nodes_.size()) +
-                " links have no place and are not drawn: " + reason};
+                " links have no place and are not drawn: " + unplacedText(*tally_.first_unplaced)};
   }
   if (!scene_->faults().empty()) {
     return {StatusLevel::Warn, scene_->faults().front().status.code, sample + faultText()};

@@ -76,6 +76,7 @@ class RobotModelLayer final : public scenegraph::Layer {
   [[nodiscard]] scenegraph::Status judge() const;
   [[nodiscard]] std::string faultText() const;
   [[nodiscard]] std::string kinematicsText() const;
+  [[nodiscard]] std::string unplacedText(std::size_t link) const;
 
   std::string topic_;
   RobotModelSettings settings_;

@@ -268,6 +268,11 @@ class Scanner {
     if (known_links.contains("")) {
       return error("UrdfMalformed", "a link has no name");
     }
+    std::vector<std::string> sorted = links_;
+    std::ranges::sort(sorted);
+    if (const auto twin = std::ranges::adjacent_find(sorted); twin != sorted.end()) {
+      return error("UrdfTwoLinks", "two links have the name '" + *twin + "'");
+    }
     std::map<std::string, const Joint*> joint_of_child;
     for (const Joint& joint : joints_) {
       for (const std::string& link : {joint.parent, joint.child}) {

@@ -93,6 +93,20 @@ TEST_F(RobotModelPicture, GathersJointsThatReportApart) {
   EXPECT_EQ(layer.counts()[1].second, 3U);
 }
 
+TEST_F(RobotModelPicture, NamesTheJointOfWhichTheJointStatesDoNotTellWhateverTheFixedFrame) {
+  DatasetBuilder builder;
+  builder.topic("/tf", ObjectType::FrameTransforms).transform(0, "elsewhere", "other");
+  builder.topic("/joint_states", ObjectType::JointStates)
+      .at(0, JointStates{.stamp = {}, .names = {"of_another_robot"}, .positions = {0.0}});
+  builder.topic("/robot_description", ObjectType::RobotDescription).at(0, urdf(kArm));
+  open(builder.build(), "base");
+  const auto& layer = add("/robot_description");
+  draw(1_s, fromAbove());
+  EXPECT_EQ(layer.status().code, "LinksUnplaced");
+  EXPECT_THAT(layer.status().message, HasSubstr("2 of 3 links have no place"));
+  EXPECT_THAT(layer.status().message, HasSubstr("'/joint_states' tells of the joint 'shoulder'"));
+}
+
 TEST_F(RobotModelPicture, SaysThatJointsOfWhichNothingTellsStandAtZero) {
   const auto& layer = show(kArm);
   const auto picture = draw(1_s, fromAbove());

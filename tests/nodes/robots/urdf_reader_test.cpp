@@ -130,7 +130,7 @@ TEST(UrdfReader, BrokenTextIsAStatusAndSilent) {
   const auto odd =
       readUrdf(robot(R"(<link name="a"><visual><geometry><box size="1 one 1"/></geometry></visual></link>)"));
   EXPECT_TRUE(odd && odd->links[0].visuals.empty() && !odd->remarks.empty());
-  EXPECT_EQ(codeOf(robot(R"(<link name="a"/><link name="a"/>)")), "UrdfTwoRoots");
+  EXPECT_EQ(codeOf(robot(R"(<link name="a"/><link name="a"/>)")), "UrdfTwoLinks");
   EXPECT_EQ(codeOf(std::string("\xEF", 1)), "NotUrdf");
   EXPECT_EQ(codeOf(good + std::string("\xEF\0\0", 3)), "Ok");  // TinyXML never ended on these
   EXPECT_EQ(codeOf(robot("\xEF\xBB\x01")), "UrdfNoRoot");

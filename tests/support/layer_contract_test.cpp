@@ -357,6 +357,28 @@ TEST_P(LayerContract, HiddenDrawsNothingDoesNoWorkAndKeepsItsSettings) {
   EXPECT_EQ(observe(*scene, counting, {15_s}), observe(*makeScene(*at_once), *at_once, {15_s}));
 }
 
+TEST_P(LayerContract, HiddenAgainHoldsNoNodeAndDecodesNothingWhereverTheTickGoes) {
+  CountingExecutor counting;
+  const auto scene = makeScene(counting);
+  Layer& layer = layerOf(*scene);
+  scene->update({15_s});
+  EXPECT_TRUE(drawsSomething(*scene));
+  layer.setVisible(false);
+  const std::size_t submitted = counting.submitted;
+  const std::size_t decoded = builder.source().decodeCount();
+  for (std::int64_t s = 10; s <= 30; ++s) {
+    scene->update({s * 1_s});
+    EXPECT_FALSE(scene->isPending());
+    std::vector<osg::Node*> nodes;
+    layer.collectNodes(nodes);
+    EXPECT_TRUE(nodes.empty());
+  }
+  EXPECT_EQ(counting.submitted, submitted);
+  EXPECT_EQ(builder.source().decodeCount(), decoded);
+  EXPECT_EQ(scene->root().getNumChildren(), 0U);
+  EXPECT_FALSE(scene->boundsInFixed().valid());
+}
+
 INSTANTIATE_TEST_SUITE_P(Types, LayerContract, testing::ValuesIn(layerCases()),
                          [](const auto& tested) { return std::string(tested.param.type); });
 

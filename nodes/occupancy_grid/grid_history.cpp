@@ -121,7 +121,7 @@ void GridHistory::apply(GridState& state, const Update& update) const {
   }
 }
 
-GridState GridHistory::at(std::span<const std::uint64_t> ids, const Fetch& fetch) {
+std::shared_ptr<const GridState> GridHistory::at(std::span<const std::uint64_t> ids, const Fetch& fetch) {
   const auto same = static_cast<std::size_t>(std::ranges::mismatch(ids, ids_).in1 - ids.begin());
   if (same < std::min(ids.size(), ids_.size())) {
     forgetAfter(same);
@@ -132,22 +132,27 @@ GridState GridHistory::at(std::span<const std::uint64_t> ids, const Fetch& fetch
   }
   const auto& start = checkpoints_.before(ids.size());
   if (!head_ || head_->place > ids.size() || head_->place < start.place) {
-    head_ = Head{start.place, 0, start.state};
+    head_ = Head{start.place, 0, std::make_shared<GridState>(start.state)};
   }
   Head& head = *head_;
+  if (head.is_given_out && head.place < ids.size()) {
+    head.state = std::make_shared<GridState>(*head.state);
+    head.is_given_out = false;
+  }
   while (head.place < ids.size()) {
     const Update patch = update(head.place, fetch);
-    const std::size_t before = head.state.cells.ownBytes();
-    apply(head.state, patch);
-    const std::size_t copied = head.state.cells.ownBytes() - before;
+    const std::size_t before = head.state->cells.ownBytes();
+    apply(*head.state, patch);
+    const std::size_t copied = head.state->cells.ownBytes() - before;
     head.work += kWorkOfUpdate + 2 * copied + (patch != nullptr ? patch->data.bytes.size() : 0);
     ++head.place;
     if (checkpoints_.isDue(head.work)) {
-      const std::size_t own_bytes = pointerBytes(head.state) + head.state.cells.ownBytes();  // before it is copied
-      checkpoints_.keep(head.place, head.state, own_bytes);
+      const std::size_t own_bytes = pointerBytes(*head.state) + head.state->cells.ownBytes();  // before it is copied
+      checkpoints_.keep(head.place, *head.state, own_bytes);
       head.work = 0;
     }
   }
+  head.is_given_out = true;
   return head.state;
 }
 

@@ -44,7 +44,7 @@ class GridHistory {
   [[nodiscard]] const GridHeader& header() const noexcept { return header_; }
   /// The state after the updates of these ids, in this order. An id names an update for good (a store's sequence
   /// numbers); a list that differs from the one before, for something arrived late, costs what follows the difference.
-  [[nodiscard]] GridState at(std::span<const std::uint64_t> ids, const Fetch& fetch);
+  [[nodiscard]] std::shared_ptr<const GridState> at(std::span<const std::uint64_t> ids, const Fetch& fetch);
 
   [[nodiscard]] std::size_t checkpointCount() const noexcept { return checkpoints_.size(); }
   /// Memory of the base, the checkpoints and the updates kept.
@@ -54,7 +54,8 @@ class GridHistory {
   struct Head {
     std::size_t place = 0;
     std::size_t work = 0;  ///< since the checkpoint before
-    GridState state;
+    std::shared_ptr<GridState> state;
+    bool is_given_out = false;  ///< and so not to be written any more
   };
   void forgetAfter(std::size_t place);
   Update update(std::size_t place, const Fetch& fetch);

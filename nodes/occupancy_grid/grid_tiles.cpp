@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cstring>
 #include <osg/Texture2D>
+#include <span>
 
 #include "generated/stillframe_nodes/shaders.h"
 #include "nodes/flat_order.h"
 #include "nodes/osg_math.h"
 #include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 namespace stillframe::nodes {
 namespace {
@@ -48,16 +53,41 @@ osg::ref_ptr<osg::Geometry> makeQuad(const GridHeader& header, std::uint32_t x, 
   return quad;
 }
 
-/// Writes a block's cells into an image whose rows are `stride` bytes apart.
-void copyBlock(const GridBlock& block, unsigned char* to, std::size_t stride) {
-  const std::int8_t* from = block.cells.data();
-  for (std::uint32_t row = 0; row < block.height; ++row, to += stride) {
-    if (block.isUniform()) {
-      std::memset(to, static_cast<unsigned char>(block.cells.front()), block.width);
-    } else if (block.width == 64) {
-      std::memcpy(to, from + std::size_t{row} * 64, 64);  // nearly all: a few instructions instead of a call
-    } else {
-      std::memcpy(to, from + std::size_t{row} * block.width, block.width);
+/// A block as one side of a row of them.
+struct BlockRows {
+  const std::int8_t* row = nullptr;  ///< the next to write
+  std::size_t step = 0;              ///< to the one after it; 0 where all are the same
+  std::uint32_t width = 0;
+  std::uint32_t left = 0;  ///< in the tile
+};
+
+/// Past the caches, where the processor can: the texels are next read for the upload, and a large grid has more of them
+/// than caches hold. finishStores() makes them seen.
+void storeRow(unsigned char* to, const std::int8_t* from, std::size_t bytes) {
+#if defined(__SSE2__)
+  if (reinterpret_cast<std::uintptr_t>(to) % sizeof(__m128i) == 0 && bytes % sizeof(__m128i) == 0) {
+    for (std::size_t i = 0; i < bytes; i += sizeof(__m128i)) {
+      _mm_stream_si128(reinterpret_cast<__m128i*>(to + i), _mm_loadu_si128(reinterpret_cast<const __m128i*>(from + i)));
+    }
+    return;
+  }
+#endif
+  std::memcpy(to, from, bytes);
+}
+
+void finishStores() {
+#if defined(__SSE2__)
+  _mm_sfence();
+#endif
+}
+
+/// Writes blocks that lie side by side, row by row across all of them: memory is written in the order of addresses,
+/// which takes half the time of block by block. The rows of the image are `stride` bytes apart.
+void writeBlocks(std::span<BlockRows> blocks, std::uint32_t rows, unsigned char* to, std::size_t stride) {
+  for (std::uint32_t row = 0; row < rows; ++row, to += stride) {
+    for (BlockRows& block : blocks) {
+      storeRow(to + block.left, block.row, block.width);
+      block.row += block.step;
     }
   }
 }
@@ -130,11 +160,11 @@ void GridTiles::show(std::shared_ptr<const GridSnapshot> snapshot) {
     return;
   }
   if (!hasLayoutOf(snapshot->header)) {
-    build(snapshot->header, snapshot->state.cells);
+    build(snapshot->header, snapshot->state->cells);
   } else {
     for (Tile& tile : tiles_) {
-      if (isChanged(tile, snapshot->state.cells)) {
-        write(tile, snapshot->header, snapshot->state.cells);
+      if (isChanged(tile, snapshot->state->cells)) {
+        write(tile, snapshot->header, snapshot->state->cells);
       }
     }
   }
@@ -145,7 +175,7 @@ void GridTiles::show(std::shared_ptr<const GridSnapshot> snapshot) {
 bool GridTiles::isChanged(const Tile& tile, const GridCells& now) const {
   return std::ranges::any_of(tile.blocks, [&](std::size_t block) {
     const auto& is = now.blocks()[block];
-    const auto& was = shown_->state.cells.blocks()[block];
+    const auto& was = shown_->state->cells.blocks()[block];
     return is != was && is->cells != was->cells;
   });
 }
@@ -176,10 +206,10 @@ void GridTiles::build(const GridHeader& header, const GridCells& cells) {
 
 void GridTiles::write(Tile& tile, const GridHeader& header, const GridCells& cells) {
   const auto blockAt = [&](std::size_t i) -> const GridBlock& { return *cells.blocks()[tile.blocks[i]]; };
-  const std::int8_t first = blockAt(0).cells.front();
+  const std::int8_t value = blockAt(0).cells.front();
   bool is_uniform = true;
   for (std::size_t i = 0; i < tile.blocks.size() && is_uniform; ++i) {
-    is_uniform = blockAt(i).isUniform() && blockAt(i).cells.front() == first;
+    is_uniform = blockAt(i).isUniform() && blockAt(i).cells.front() == value;
   }
   const int width = is_uniform ? 1 : static_cast<int>(tile.width);
   const int height = is_uniform ? 1 : static_cast<int>(tile.height);
@@ -191,18 +221,30 @@ void GridTiles::write(Tile& tile, const GridHeader& header, const GridCells& cel
     tile.geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, makeTexture(tile.image));
   }
   if (is_uniform) {
-    *tile.image->data() = static_cast<unsigned char>(first);
+    *tile.image->data() = static_cast<unsigned char>(value);
   } else {
     const std::size_t columns = (tile.width + header.block_edge - 1) / header.block_edge;
-    for (std::size_t i = 0; i < tile.blocks.size(); ++i) {
-      const GridBlock& block = blockAt(i);
-      if (is_kept && shown_->state.cells.blocks()[tile.blocks[i]].get() == &block) {
-        continue;  // the texels are there
+    std::vector<std::int8_t> same(columns * header.block_edge);  // rows of the blocks of one value
+    std::vector<BlockRows> changed;
+    for (std::size_t first = 0; first < tile.blocks.size(); first += columns) {
+      changed.clear();
+      for (std::size_t i = first; i < first + columns; ++i) {
+        const GridBlock& block = blockAt(i);
+        if (is_kept && shown_->state->cells.blocks()[tile.blocks[i]].get() == &block) {
+          continue;  // the texels are there
+        }
+        const auto left = static_cast<std::uint32_t>((i - first) * header.block_edge);
+        if (block.isUniform()) {
+          std::fill_n(same.begin() + left, block.width, block.cells.front());
+          changed.push_back({&same[left], 0, block.width, left});
+        } else {
+          changed.push_back({block.cells.data(), block.width, block.width, left});
+        }
       }
-      const auto left = static_cast<unsigned>(i % columns * header.block_edge);
-      const auto bottom = static_cast<unsigned>(i / columns * header.block_edge);
-      copyBlock(block, tile.image->data(left, bottom), tile.width);
+      const auto bottom = static_cast<unsigned>(first / columns * header.block_edge);
+      writeBlocks(changed, blockAt(first).height, tile.image->data(0, bottom), tile.width);
     }
+    finishStores();
   }
   tile.image->dirty();
   uploaded_bytes_ += static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);

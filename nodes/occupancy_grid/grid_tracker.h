@@ -16,7 +16,7 @@ namespace stillframe::nodes {
 /// A state of a grid with what its base says.
 struct GridSnapshot {
   GridHeader header;
-  GridState state;
+  std::shared_ptr<const GridState> state;
   scenegraph::Entry base;
 };
 

@@ -87,7 +87,7 @@ std::optional<scenegraph::Picked> OccupancyGridLayer::describeData(const scenegr
                             .stamp = header.stamp,
                             .fields = {},
                             .radius_m = std::max(1.0, 4.0 * header.resolution_m)};
-  const int value = product_->state.cells.at(x, y);
+  const int value = product_->state->cells.at(x, y);
   picked.add("column", x);
   picked.add("row", y);
   picked.add("value", value);
@@ -96,12 +96,12 @@ std::optional<scenegraph::Picked> OccupancyGridLayer::describeData(const scenegr
                                   : value >= 65               ? "occupied"
                                                               : "free or uncertain"));
   picked.add("resolution_m", header.resolution_m);
-  picked.add("updates", product_->state.applied);
+  picked.add("updates", product_->state->applied);
   return picked;
 }
 
 Status OccupancyGridLayer::remark() const {
-  const GridState& state = product_->state;
+  const GridState& state = *product_->state;
   const std::string base = sampleText(product_->base);
   const std::string all = std::to_string(state.applied + state.refused) + " updates ";
   if (state.refused > 0) {
@@ -148,12 +148,12 @@ scenegraph::LayerCounts OccupancyGridLayer::counts() const {
   if (product_ == nullptr) {
     return {{"cells", 0}, {"unknown", 0}, {"occupied", 0}, {"invalid", 0}, {"updates", 0}};
   }
-  const CellCounts& counts = product_->state.cells.counts();
+  const CellCounts& counts = product_->state->cells.counts();
   return {{"cells", product_->header.cellCount()},
           {"unknown", counts.unknown},
           {"occupied", counts.occupied},
           {"invalid", counts.invalid},
-          {"updates", product_->state.applied}};
+          {"updates", product_->state->applied}};
 }
 
 std::vector<scenegraph::SettingSpec> OccupancyGridLayer::settingSpecs() const {

@@ -36,7 +36,7 @@ scenegraph::OccupancyGrid PatchStream::base() const {
   return grid;
 }
 
-nodes::GridState PatchStream::seek(nodes::GridHistory& history, std::size_t count) const {
+std::shared_ptr<const nodes::GridState> PatchStream::seek(nodes::GridHistory& history, std::size_t count) const {
   return history.at(std::span(ids_).first(count), [&](std::size_t place) { return patches_[place]; });
 }
 

@@ -22,7 +22,7 @@ class PatchStream {
   [[nodiscard]] scenegraph::OccupancyGrid base() const;
   [[nodiscard]] const scenegraph::OccupancyGridUpdate& patch(std::size_t place) const { return *patches_[place]; }
   /// The state after the first `count` patches.
-  [[nodiscard]] nodes::GridState seek(nodes::GridHistory& history, std::size_t count) const;
+  [[nodiscard]] std::shared_ptr<const nodes::GridState> seek(nodes::GridHistory& history, std::size_t count) const;
 
  private:
   nodes::GridHeader header_;

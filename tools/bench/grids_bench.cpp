@@ -20,7 +20,7 @@ const PatchStream& stream() {
 void firstPass(benchmark::State& state) {
   for (auto _ : state) {
     auto history = stream().makeHistory();
-    benchmark::DoNotOptimize(stream().seek(history, PatchStream::kPatches).applied);
+    benchmark::DoNotOptimize(stream().seek(history, PatchStream::kPatches)->applied);
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * PatchStream::kPatches));
 }
@@ -32,7 +32,7 @@ void randomSeek(benchmark::State& state) {
   double longest_ms = 0.0;
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
-    benchmark::DoNotOptimize(stream().seek(history, random() % (PatchStream::kPatches + 1)).applied);
+    benchmark::DoNotOptimize(stream().seek(history, random() % (PatchStream::kPatches + 1))->applied);
     longest_ms = std::max(longest_ms, scenegraph::millisecondsSince(start));
   }
   state.counters["longest_ms"] = longest_ms;
@@ -45,7 +45,7 @@ void nextPatch(benchmark::State& state) {
   (void)stream().seek(history, PatchStream::kPatches);
   std::size_t at = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(stream().seek(history, at).applied);
+    benchmark::DoNotOptimize(stream().seek(history, at)->applied);
     at = (at + 1) % PatchStream::kPatches;
   }
 }

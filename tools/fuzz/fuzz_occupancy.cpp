@@ -130,7 +130,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       applied += patch(cells, *header, *stream[i]) ? 1 : 0;
     }
     const auto state = history.at(std::span(ids).first(place), [&](std::size_t at) { return stream[at]; });
-    requireState(state, *header, cells, applied);
+    requireState(*state, *header, cells, applied);
   }
   return 0;
 }

@@ -28,7 +28,7 @@ std::string hashOf(const nodes::GridSnapshot& snapshot) {
   std::vector<std::int8_t> cells;
   for (std::uint32_t y = 0; y < snapshot.header.height; ++y) {
     for (std::uint32_t x = 0; x < snapshot.header.width; ++x) {
-      cells.push_back(snapshot.state.cells.at(x, y));
+      cells.push_back(snapshot.state->cells.at(x, y));
     }
   }
   return sha256(cells);
@@ -78,17 +78,17 @@ TEST_P(RecordedGrids, HaveTheCellsOfTheReferenceAnswersInAnyOrder) {
         EXPECT_EQ(shown.header.width, snapshot["width"].get<std::uint32_t>());
         EXPECT_EQ(shown.header.height, snapshot["height"].get<std::uint32_t>());
         EXPECT_EQ(hashOf(shown), snapshot["sha256_int8_rowmajor"].get<std::string>());
-        EXPECT_EQ(shown.state.cells.counts().unknown, snapshot["unknown"].get<std::uint64_t>());
+        EXPECT_EQ(shown.state->cells.counts().unknown, snapshot["unknown"].get<std::uint64_t>());
         const auto invalid_high = [&] {
           std::uint64_t count = 0;
           for (std::uint32_t y = 0; y < shown.header.height; ++y) {
             for (std::uint32_t x = 0; x < shown.header.width; ++x) {
-              count += shown.state.cells.at(x, y) > 100 ? 1U : 0U;
+              count += shown.state->cells.at(x, y) > 100 ? 1U : 0U;
             }
           }
           return count;
         }();
-        EXPECT_EQ(shown.state.cells.counts().occupied + invalid_high, snapshot["ge65"].get<std::uint64_t>());
+        EXPECT_EQ(shown.state->cells.counts().occupied + invalid_high, snapshot["ge65"].get<std::uint64_t>());
         ++compared;
       }
       std::ranges::reverse(snapshots);
@@ -97,9 +97,9 @@ TEST_P(RecordedGrids, HaveTheCellsOfTheReferenceAnswersInAnyOrder) {
     const auto& not_applicable = about["updates_not_applicable_as_sent_log_ns"];
     if (tracker.product() != nullptr && !not_applicable.empty()) {
       (void)tracker.update(timeOf(not_applicable.back()));
-      EXPECT_EQ(tracker.product()->state.refused + tracker.product()->state.clipped, not_applicable.size())
-          << tracker.product()->state.first_refusal;
-      EXPECT_GE(tracker.product()->state.clipped, 1U);
+      EXPECT_EQ(tracker.product()->state->refused + tracker.product()->state->clipped, not_applicable.size())
+          << tracker.product()->state->first_refusal;
+      EXPECT_GE(tracker.product()->state->clipped, 1U);
     }
   }
   EXPECT_GE(compared, 8U);

@@ -109,12 +109,10 @@ const MapMesh* GridSurface::mesh(std::string_view height_layer) const {
     mesh.normals->setVertexBufferObject(new osg::VertexBufferObject);
     mesh.triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
     mesh.triangles->setElementBufferObject(new osg::ElementBufferObject);
-    std::vector<std::uint32_t> triangles;
     buildSurface(*map_, texels(*heights->texture, cells_.all.points), limits.offset, mesh.z_origin,
                  {.positions = {mesh.positions->front().ptr(), 3 * cells_.all.points},
                   .normals = {mesh.normals->front().ptr(), 4 * cells_.all.points},
-                  .triangles = triangles});
-    mesh.triangles->asVector().assign(triangles.begin(), triangles.end());
+                  .triangles = mesh.triangles->asVector()});
   }
   return &mesh;
 }

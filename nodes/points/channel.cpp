@@ -38,19 +38,19 @@ ChannelValues readChannel(const std::byte* data, const ConvertedCloud& converted
     const std::byte* at = data + run.offset + field_offset;
     for (std::size_t i = 0; i < run.count; ++i, at += converted.point_step) {
       const auto value = static_cast<Limit>(readValue<T, kSwapped>(at));
+      bool is_finite = true;
       if constexpr (std::is_floating_point_v<T>) {
-        const bool is_finite = std::abs(value) <= std::numeric_limits<Limit>::max();
-        if (!is_finite) {
-          *out++ = toArray(static_cast<double>(value));
-          continue;
-        }
-        *out++ = toArray(static_cast<double>(value));
+        is_finite = std::abs(value) <= std::numeric_limits<Limit>::max();
+        constexpr Limit kReach = kValueReach;
+        const auto clamped = static_cast<float>(value < -kReach ? -kReach : value > kReach ? kReach : value);
+        *out++ = std::isnan(value) ? kMissingValue : clamped;
       } else {
         *out++ = static_cast<float>(value);
       }
-      low = std::min(low, value);
-      high = std::max(high, value);
-      ++finite;
+      // Without a branch: what is not finite is no limit.
+      low = is_finite && value < low ? value : low;
+      high = is_finite && value > high ? value : high;
+      finite += is_finite ? 1 : 0;
     }
   }
   if (finite == 0) {

@@ -164,5 +164,35 @@ TEST(MapSurface, TurnsEveryTriangleUpAndItsNormalsBySlope) {
   }
 }
 
+TEST(MapSurface, HasNormalsOnAnySlopeAndBesideHoles) {
+  // Heights that rise by 2 along x and by 1 along y, with holes: the slopes to one neighbour are those to two.
+  const auto normalsOf = [](double size_x, double size_y) {
+    GridMap map = GridMapBuilder(7, 6)
+                      .layer("elevation",
+                             [](auto column, auto row) { return (column + row) % 5 == 1 ? kNan : 2.0 * column + row; })
+                      .build();
+    map.cell_size_m = {size_x, size_y};
+    return surfaceOf(map).normals;
+  };
+  const auto even = normalsOf(1.0, 1.0);
+  int sloping = 0;
+  for (std::size_t i = 0; i < even.size() / 4; ++i) {
+    const glm::dvec3 normal(even[4 * i], even[4 * i + 1], even[4 * i + 2]);
+    EXPECT_NEAR(glm::length(normal), 127.0, 1.0) << i;
+    const bool is_whole = normal.x != 0.0 && normal.y != 0.0;
+    sloping += is_whole ? 1 : 0;
+    if (is_whole) {
+      EXPECT_NEAR(normal.x, 127.0 * -2 / std::sqrt(6.0), 1.0) << i;
+      EXPECT_NEAR(normal.y, 127.0 * -1 / std::sqrt(6.0), 1.0) << i;
+    }
+  }
+  EXPECT_GT(sloping, 15);
+  const auto tiny = normalsOf(1e-300, 1e-300);  // a wall, and no number that is none
+  for (std::size_t i = 0; i < tiny.size(); i += 4) {
+    EXPECT_NEAR(std::hypot(tiny[i], tiny[i + 1], tiny[i + 2]), 127.0, 1.0);
+  }
+  EXPECT_EQ(tiny[4 * 3], -90) << "as steep along x as along y";
+}
+
 }  // namespace
 }  // namespace stillframe::test

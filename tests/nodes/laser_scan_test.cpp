@@ -76,6 +76,29 @@ TEST(ScanCloud, WithoutAnUpperLimitOnlyInfinitiesAreDropped) {
   EXPECT_EQ(nodes::convertScan(scan)->cloud.width, 1U);
 }
 
+TEST(ScanCloud, PutsEachBeamWhereItsAngleSays) {
+  Random random(3);
+  for (const double increment : {0.0, 1e-4, -0.017, 1.0, 700.0}) {
+    LaserScan scan = scanOf({});
+    scan.angle_min_rad = -2.2;
+    scan.angle_increment_rad = increment;
+    for (int i = 0; i < 1000; ++i) {
+      scan.ranges_m.push_back(i % 7 == 0 ? kNan : random.number(0.5, 10.0));
+    }
+    const auto result = nodes::convertScan(scan);
+    ASSERT_TRUE(result);
+    std::size_t point = 0;
+    for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
+      if (const double range = scan.ranges_m[beam]; !std::isnan(range)) {
+        const double angle = scan.angle_min_rad + static_cast<double>(beam) * increment;
+        const glm::dvec3 expected(range * std::cos(angle), range * std::sin(angle), 0.0);
+        ASSERT_LT(glm::length(pointOf(result->cloud, point++) - expected), 1e-6) << increment << ", beam " << beam;
+      }
+    }
+    EXPECT_EQ(point, result->cloud.width);
+  }
+}
+
 TEST(ScanCloud, LeavesOutIntensitiesOfAnotherCount) {
   LaserScan scan = scanOf({1, 2, 3});
   scan.intensities = {1, 2};

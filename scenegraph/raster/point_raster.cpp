@@ -69,8 +69,8 @@ void project(Block& block, std::size_t count, const Projection& projection) {
     const float clip_z = m[2] * x + m[6] * y + m[10] * z + m[14];
     const float clip_w = m[3] * x + m[7] * y + m[11] * z + m[15];
     // Not-a-number fails every comparison. Bitwise, so that no branch keeps the loop from being vectorised.
-    const bool is_inside = (clip_w > 0.0F) & (std::fabs(clip_x) <= clip_w) & (std::fabs(clip_y) <= clip_w) &
-                           (clip_z > 0.0F) & (clip_z <= clip_w);
+    const bool is_inside = (int{clip_w > 0.0F} & int{std::fabs(clip_x) <= clip_w} & int{std::fabs(clip_y) <= clip_w} &
+                            int{clip_z > 0.0F} & int{clip_z <= clip_w}) != 0;
     const float per_w = 1.0F / clip_w;
     const float window_x = is_inside ? clip_x * per_w * half_width + half_width : 0.0F;
     const float window_y = is_inside ? clip_y * per_w * half_height + half_height : 0.0F;

@@ -48,7 +48,7 @@ TEST(ConvertCloud, DropsNoneButTheBadPointWhereverItLies) {
     const auto value = static_cast<float>(i);
     points.push_back({value, -value, value / 2});
   }
-  for (const std::size_t at : {0, 1, 7, 8, 510, 511, 512, 513, 1023, 1024, 1195, 1202}) {
+  for (const std::size_t at : {0U, 1U, 7U, 8U, 510U, 511U, 512U, 513U, 1023U, 1024U, 1195U, 1202U}) {
     for (const float bad : {kNan, kInf, -kInf, 3e38F, -2e15F}) {
       for (float Xyz::* const axis : {&Xyz::x, &Xyz::y, &Xyz::z}) {
         std::vector<Xyz> spoilt = points;

@@ -42,7 +42,7 @@ struct ZstdStream {
 
 struct Lz4Stream {
   struct Free {
-    void operator()(LZ4F_dctx* context) const { LZ4F_freeDecompressionContext(context); }
+    void operator()(LZ4F_dctx* freed) const { LZ4F_freeDecompressionContext(freed); }
   };
   std::unique_ptr<LZ4F_dctx, Free> context;
 

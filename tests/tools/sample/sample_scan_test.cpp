@@ -18,7 +18,6 @@
 namespace stillframe::sample {
 namespace {
 
-constexpr SampleOptions kOptions = RecordedSample::kOptions;
 using SampleScan = RecordedSample;
 
 /// How far nine of ten points before the two free walls lie off them at most, in metres (the tenth may be the edge of
@@ -43,7 +42,7 @@ std::optional<double> offWalls(const scenegraph::PointCloud& cloud, const tf::Ri
 }
 
 TEST_F(SampleScan, DeskewedWallsAreFlatWithinACentimetre) {
-  const Robot robot(kOptions.seed, kOptions.duration_ns);
+  const Robot robot(RecordedSample::kOptions.seed, RecordedSample::kOptions.duration_ns);
   const auto scans = messages<scenegraph::LaserScan>("/scan");
   ASSERT_EQ(scans.size(), 41U);
   const tf::TransformBuffer& buffer = *recording_->dataset()->transforms();

@@ -70,10 +70,10 @@ PointProgress PointStage::draw(PointCollection points, int width_px, int height_
   progress.in_view = in_view_;
   const bool is_drawing = passes_ < limits.passes;
   if (is_drawing) {
-    const auto before = Clock::now();
     PointLimits left = limits;
-    left.budget_ms -= milliseconds(before - start);  // for making room for the picture, some pixels a nanosecond
+    left.budget_ms -= millisecondsSince(start);  // for making room for the picture, some pixels a nanosecond
     const std::uint32_t more = affordablePasses(left);
+    const auto before = Clock::now();
     drawer_->draw({passes_, passes_ + more});
     passes_ += more;
     progress.raster_ms = millisecondsSince(start);

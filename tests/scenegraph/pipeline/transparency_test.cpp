@@ -65,7 +65,8 @@ class TransparencyTest : public test::OffscreenTest {
     CameraView view{.eye_from_fixed = lookAt({0, 0, 10}, {0, 0, 0}, {0, 1, 0})};
     view.is_orthographic = true;
     view.vertical_extent_m = 2.0;
-    return render(*root, view, {.width = size, .height = size, .background = {0, 0, 0, 1}, .post = post, .blend = blend});
+    return render(*root, view,
+                  {.width = size, .height = size, .background = {0, 0, 0, 1}, .post = post, .blend = blend});
   }
   Picture draw(const std::vector<Pane>& panes, int size = 48, const BlendLimits& blend = {}) {
     std::vector<osg::ref_ptr<osg::Node>> nodes;

@@ -99,6 +99,8 @@ void VoxelGridLayer::show() {
   needed_texels_ = 0;
   geometry_->removePrimitiveSet(0, geometry_->getNumPrimitiveSets());
   geometry_->setVertexArray(nullptr);
+  rays_ = nullptr;
+  geometry_->setUserData(nullptr);
   geometry_->dirtyBound();
   state_.clearBuffers();
 }
@@ -147,6 +149,8 @@ void VoxelGridLayer::build(const Choice& choice) {
   triangles->setNumInstances(static_cast<int>(listed_));
   geometry_->setVertexArray(vertices);
   geometry_->addPrimitiveSet(triangles);
+  rays_ = new VoxelRays(product(), choice.drawn_by, is_rgb);
+  geometry_->setUserData(rays_);
   geometry_->dirtyBound();
 }
 
@@ -183,6 +187,10 @@ void VoxelGridLayer::draw(const Placement& fixed_from_grid) {
     state_.apply(chosen(), colors != nullptr && colors->is_translucent);
     test_ = testOf(chosen(), block.field(choice_->drawn_by));
     state_.setTest(test_);
+    if (rays_.valid()) {
+      rays_->setTest(test_);
+      rays_->setSeen(chosen().opacity > 0.0);
+    }
   }
   RangeMap value_map;
   glm::dvec4 axis_map{0.0};

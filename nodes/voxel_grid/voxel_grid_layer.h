@@ -12,6 +12,7 @@
 #include "nodes/sample_layer.h"
 #include "nodes/voxel_grid/voxel_block.h"
 #include "nodes/voxel_grid/voxel_grid_settings.h"
+#include "nodes/voxel_grid/voxel_rays.h"
 #include "nodes/voxel_grid/voxel_state.h"
 
 namespace stillframe::nodes {
@@ -68,6 +69,7 @@ class VoxelGridLayer final : public SampleLayer<VoxelBlock, VoxelGridSettings> {
   std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
   std::uint64_t needed_texels_ = 0;  // of the largest buffer
   osg::ref_ptr<osg::Geometry> geometry_;
+  osg::ref_ptr<VoxelRays> rays_;  // its user data: what a pick asks instead of drawing it
   VoxelState state_;
 };
 

@@ -13,6 +13,7 @@
 
 #include "scenegraph/geometry.h"
 #include "scenegraph/pipeline/id_program.h"
+#include "scenegraph/pipeline/id_rays.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -119,6 +120,37 @@ void IdPass::collect(osg::Group& root, const View& view, bool with_points) {
   DrawableCollector collector(view, with_points, drawables_);
   root.accept(collector);
   std::ranges::stable_partition(drawables_, [](const IdDrawable& one) { return !isOnTop(one.path); });
+  std::ranges::stable_partition(drawables_,
+                                [](const IdDrawable& one) { return rayTargetOf(*one.path.back()) == nullptr; });
+}
+
+std::size_t IdPass::drawnCount() const {
+  const auto first =
+      std::ranges::find_if(drawables_, [](const IdDrawable& one) { return rayTargetOf(*one.path.back()) != nullptr; });
+  return static_cast<std::size_t>(first - drawables_.begin());
+}
+
+void IdPass::castRays(const View& view, std::size_t first, std::vector<gl::IdTarget::Id>& ids,
+                      std::vector<float>& depths) const {
+  const int side = 2 * view.reach_px + 1;
+  for (std::size_t i = first; i < drawables_.size(); ++i) {
+    const IdDrawable& one = drawables_[i];
+    const IdRays rays(*rayTargetOf(*one.path.back()), one.eye_from_local, view.clip_from_eye, view.width_px,
+                      view.height_px);
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        const auto place = static_cast<std::size_t>(y * side + x);
+        if (ids[place][0] != 0 && isOnTop(drawables_[ids[place][0] - 1].path)) {
+          continue;
+        }
+        const auto met = rays.at(view.x_px + x - view.reach_px, view.y_px + y - view.reach_px);
+        if (met && met->depth > depths[place]) {
+          ids[place] = {static_cast<std::uint32_t>(i + 1), met->instance, 0, 0};
+          depths[place] = met->depth;
+        }
+      }
+    }
+  }
 }
 
 const IdPass::Derived& IdPass::derive(const osg::Program* program) {
@@ -172,7 +204,7 @@ void IdPass::drawGl(const View& view, osg::RenderInfo& info) {
   }
   state.applyProjectionMatrix(projection);
   std::uint32_t number = 0;
-  for (const IdDrawable& one : drawables_) {
+  for (const IdDrawable& one : std::span(drawables_).first(drawnCount())) {
     auto& drawable = const_cast<osg::Drawable&>(*one.path.back()->asDrawable());
     const osg::Program* const program = programOf(one.path);
     const Derived& derived = derive(program);
@@ -211,7 +243,8 @@ std::optional<std::vector<IdSample>> IdPass::draw(osg::Group& root, const View& 
   };
   std::vector<gl::IdTarget::Id> ids(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
   std::vector<float> depths(ids.size(), 0.0F);
-  if (!drawables_.empty()) {
+  const std::size_t drawn = drawnCount();
+  if (drawn > 0) {
     makeState(view);
     if (!target_.begin(side)) {
       return std::nullopt;
@@ -219,6 +252,7 @@ std::optional<std::vector<IdSample>> IdPass::draw(osg::Group& root, const View& 
     drawGl(view, info);
     target_.read(ids, depths);
   }
+  castRays(view, drawn, ids, depths);
   const std::size_t first_cloud = drawables_.size();
   std::vector<std::uint32_t> ends;  // of the clouds' points, in their numbers
   if (points) {

@@ -38,7 +38,8 @@ struct IdSample {
 /// back.
 ///
 /// Nothing is made before the first draw(): no target, no shader. What lies outside those pixels is left out before it
-/// is drawn: whole drawables by their boxes, points by the vertex shader. Rasterised as in the picture, for the
+/// is drawn: whole drawables by their boxes, points by the vertex shader. What answers rays (RayTarget) is asked
+/// instead. Rasterised as in the picture, for the
 /// viewport is the picture's, moved. Thread of the context only, with a context current; leaves another framebuffer
 /// bound.
 class IdPass {
@@ -68,6 +69,10 @@ class IdPass {
 
  private:
   void collect(osg::Group& root, const View& view, bool with_points);
+  /// Those that are drawn; those that rays are cast at come behind them.
+  [[nodiscard]] std::size_t drawnCount() const;
+  void castRays(const View& view, std::size_t first, std::vector<gl::IdTarget::Id>& ids,
+                std::vector<float>& depths) const;
   void drawGl(const View& view, osg::RenderInfo& info);
   void makeState(const View& view);
   struct Derived {

@@ -15,20 +15,6 @@ std::string shortId(const LiveEntity& entity) {
   return entity.id.starts_with(prefix) ? entity.id.substr(prefix.size()) : entity.id;
 }
 
-const char* kindName(ShapeKind kind) {
-  switch (kind) {
-    case ShapeKind::Box:
-      return "cube";
-    case ShapeKind::Sphere:
-      return "sphere";
-    case ShapeKind::Frustum:
-      return "cylinder, arrow or axes";
-    case ShapeKind::Square:
-      break;
-  }
-  return "point";
-}
-
 Picked describeEntity(const LiveEntity& entity, const glm::dvec3& point_in_frame, const std::string& primitive) {
   Picked picked{.kind = "marker",
                 .id = shortId(entity),
@@ -50,6 +36,41 @@ Picked describeEntity(const LiveEntity& entity, const glm::dvec3& point_in_frame
     picked.add(key, value);
   }
   return picked;
+}
+
+/// A primitive's own pose and size, with all the digits of the message; of points the pose is that of the list.
+void addSource(Picked& picked, const PrimitiveSource& source) {
+  picked.addPose("pose", source.pose);
+  const auto names = sizeNames(source.kind);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    picked.add(names[i], source.sizes.at(i));
+  }
+}
+
+/// The same of what is drawn from the message itself, where the entity has one of it: an entity of several does not
+/// tell which.
+void addRest(Picked& picked, const scenegraph::SceneEntity& entity, const std::string& primitive) {
+  if (primitive == "line" && entity.lines.size() == 1) {
+    const auto& line = entity.lines.front();
+    picked.addPose("pose", line.pose);
+    picked.add(line.is_scale_invariant ? "thickness_px" : "thickness", line.thickness);
+    picked.add("points", line.points.size());
+  } else if (primitive == "triangles" && entity.triangles.size() == 1) {
+    picked.addPose("pose", entity.triangles.front().pose);
+    picked.add("points", entity.triangles.front().points.size());
+  } else if (primitive == "model" && entity.models.size() == 1) {
+    const auto& model = entity.models.front();
+    picked.addPose("pose", model.pose);
+    picked.add("scale_x", model.scale.x);
+    picked.add("scale_y", model.scale.y);
+    picked.add("scale_z", model.scale.z);
+    picked.add("url", model.url);
+  } else if (primitive == "text" && entity.texts.size() == 1) {
+    const auto& text = entity.texts.front();
+    picked.addPose("pose", text.pose);
+    picked.add(text.is_scale_invariant ? "font_size_px" : "font_size", text.font_size);
+    picked.add("text", text.text);
+  }
 }
 
 void addLook(Picked& picked, const Instance& copy, const glm::dvec3& centre_in_frame) {
@@ -83,8 +104,14 @@ std::optional<Picked> MarkerPicture::describe(const scenegraph::PickHit& hit) co
   if (!batch) {
     const auto rest = parts->second->rest().entityAt(hit);
     const LiveEntity* const entity = rest ? shown_->at(rest->slot) : nullptr;
-    return entity == nullptr ? std::nullopt
-                             : std::optional(describeEntity(*entity, rest->point_in_frame, rest->primitive));
+    if (entity == nullptr) {
+      return std::nullopt;
+    }
+    Picked picked = describeEntity(*entity, rest->point_in_frame, rest->primitive);
+    if (entity->rest != nullptr) {
+      addRest(picked, *entity->rest, rest->primitive);
+    }
+    return picked;
   }
   const auto& [key, mesh] = *batch;
   const auto holds = [&](const ShapeRun& run) {
@@ -92,9 +119,14 @@ std::optional<Picked> MarkerPicture::describe(const scenegraph::PickHit& hit) co
   };
   for (std::size_t slot = 0; slot < shown_->slotCount(); ++slot) {
     const LiveEntity* const entity = shown_->at(slot);
-    if (entity != nullptr && entity->frame_id == hit.frame && std::ranges::any_of(entity->shapes.runs, holds)) {
-      Picked picked = describeEntity(*entity, mesh->surfacePoint(hit), kindName(key.kind));
-      const Instance& copy = mesh->at(hit.instance);
+    if (entity == nullptr || entity->frame_id != hit.frame) {
+      continue;
+    }
+    if (const auto run = std::ranges::find_if(entity->shapes.runs, holds); run != entity->shapes.runs.end()) {
+      const Instance& copy = run->instances[hit.instance - run->first];
+      const PrimitiveSource& source = entity->shapes.sources.at(static_cast<std::size_t>(copy.id));
+      Picked picked = describeEntity(*entity, mesh->surfacePoint(hit), toString(source.kind));
+      addSource(picked, source);
       const auto& m = copy.local_from_mesh;
       addLook(
           picked, copy,

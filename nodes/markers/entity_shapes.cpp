@@ -23,8 +23,13 @@ class Collector {
  public:
   explicit Collector(bool use_cells) : use_cells_(use_cells) {}
 
-  /// Copies of one primitive count as one.
-  void begin() { is_judged_ = false; }
+  /// What is added from now on is of this primitive.
+  void begin(const PrimitiveSource& source) {
+    out_.sources.push_back(source);
+    beginPart();
+  }
+  /// Copies of one part are judged as one.
+  void beginPart() { is_judged_ = false; }
   void add(ShapeKind kind, const RigidTransform& pose, const glm::dvec3& scale, const EntityColor& color,
            float taper = 1.0F) {
     const glm::dvec3& at = pose.translation;
@@ -53,6 +58,7 @@ class Collector {
       judge(out_.flat);
     }
     instance.taper = taper;
+    instance.id = static_cast<float>(out_.sources.size() - 1);  // exact below 2^24
     runOf(key, pose, scale, color, instance).instances.push_back(instance);
   }
   [[nodiscard]] EntityShapes take() { return std::move(out_); }
@@ -69,10 +75,11 @@ class Collector {
     }
     auto found = index_.find(key);
     if (found == index_.end() && out_.runs.size() >= kMostRuns && key.cell != ShapeBatchKey{}.cell) {
-      const float taper = instance.taper;
+      const Instance before = instance;
       key.cell = {};
       instance = makeInstance(pose, scale, key.origin(), {color.r, color.g, color.b, color.a});
-      instance.taper = taper;
+      instance.taper = before.taper;
+      instance.id = before.id;
       found = index_.find(key);
     }
     if (found == index_.end()) {
@@ -104,7 +111,9 @@ void addArrow(const scenegraph::ArrowPrimitive& arrow, Collector& out) {
     at.rotation = at.rotation * kXFromZ;
     out.add(ShapeKind::Frustum, at, {diameter, diameter * arrow.height_ratio, length}, arrow.color, taper);
   };
-  out.begin();
+  out.begin({PrimitiveSource::Kind::Arrow,
+             arrow.pose,
+             {arrow.shaft_length, arrow.shaft_diameter, arrow.head_length, arrow.head_diameter}});
   part(0.0, arrow.shaft_length, arrow.shaft_diameter, 1.0F);
   part(arrow.shaft_length, arrow.head_length, arrow.head_diameter, 0.0F);
 }
@@ -116,7 +125,9 @@ void addCylinder(const scenegraph::CylinderPrimitive& cylinder, Collector& out) 
   const double larger = std::max(bottom, top);
   const double smaller = larger > 0.0 ? std::min(bottom, top) / larger : 1.0;
   const glm::dvec3 size{cylinder.size.x * larger, cylinder.size.y * larger, cylinder.size.z};
-  out.begin();
+  out.begin({PrimitiveSource::Kind::Cylinder,
+             cylinder.pose,
+             {cylinder.size.x, cylinder.size.y, cylinder.size.z, cylinder.bottom_scale, cylinder.top_scale}});
   out.add(ShapeKind::Frustum, soundPose(cylinder.pose), size, cylinder.color,
           static_cast<float>(top < bottom ? smaller : 2.0 - smaller));
 }
@@ -124,7 +135,7 @@ void addCylinder(const scenegraph::CylinderPrimitive& cylinder, Collector& out) 
 void addAxes(const scenegraph::AxesPrimitive& axes, Collector& out) {
   const RigidTransform pose = soundPose(axes.pose);
   const glm::dquat turns[] = {kXFromZ, glm::dquat(0.5, -0.5, -0.5, -0.5), glm::dquat(1.0, 0.0, 0.0, 0.0)};
-  out.begin();
+  out.begin({PrimitiveSource::Kind::Axes, axes.pose, {axes.length, axes.thickness}});
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 middle(0.0);
     middle[axis] = 0.5 * axes.length;
@@ -146,17 +157,44 @@ RigidTransform soundPose(const RigidTransform& pose) {
   return {glm::normalize(q / largest), pose.translation};
 }
 
+const char* toString(PrimitiveSource::Kind kind) noexcept {
+  constexpr std::array kNames{"arrow", "cube", "sphere", "cylinder", "point", "axes"};
+  return kNames.at(static_cast<std::size_t>(kind));
+}
+
+std::span<const char* const> sizeNames(PrimitiveSource::Kind kind) noexcept {
+  using enum PrimitiveSource::Kind;
+  static constexpr std::array kArrow{"shaft_length", "shaft_diameter", "head_length", "head_diameter"};
+  static constexpr std::array kSize{"size_x", "size_y", "size_z", "bottom_scale", "top_scale"};
+  static constexpr std::array kPoints{"width", "height"};
+  static constexpr std::array kAxes{"length", "thickness"};
+  switch (kind) {
+    case Arrow:
+      return kArrow;
+    case Cube:
+    case Sphere:
+      return std::span(kSize).first(3);
+    case Cylinder:
+      return kSize;
+    case Points:
+      return kPoints;
+    case Axes:
+      break;
+  }
+  return kAxes;
+}
+
 EntityShapes shapesOf(const scenegraph::SceneEntity& entity, bool use_cells) {
   Collector out(use_cells);
   for (const auto& arrow : entity.arrows) {
     addArrow(arrow, out);
   }
   for (const auto& cube : entity.cubes) {
-    out.begin();
+    out.begin({PrimitiveSource::Kind::Cube, cube.pose, {cube.size.x, cube.size.y, cube.size.z}});
     out.add(ShapeKind::Box, soundPose(cube.pose), cube.size, cube.color);
   }
   for (const auto& sphere : entity.spheres) {
-    out.begin();
+    out.begin({PrimitiveSource::Kind::Sphere, sphere.pose, {sphere.size.x, sphere.size.y, sphere.size.z}});
     out.add(ShapeKind::Sphere, soundPose(sphere.pose), sphere.size, sphere.color);
   }
   for (const auto& cylinder : entity.cylinders) {
@@ -164,8 +202,9 @@ EntityShapes shapesOf(const scenegraph::SceneEntity& entity, bool use_cells) {
   }
   for (const auto& points : entity.points) {
     const RigidTransform pose = soundPose(points.pose);
+    out.begin({PrimitiveSource::Kind::Points, points.pose, {points.width_m, points.height_m}});
     for (std::size_t i = 0; i < points.points.size(); ++i) {
-      out.begin();
+      out.beginPart();
       out.add(ShapeKind::Square, {glm::dquat(1.0, 0.0, 0.0, 0.0), moved(pose, points.points[i]).translation},
               {points.width_m, points.height_m, 1.0}, i < points.colors.size() ? points.colors[i] : points.color);
     }

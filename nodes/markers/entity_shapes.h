@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "nodes/primitives/instance.h"
@@ -40,8 +41,20 @@ struct ShapeRun {
   std::vector<Instance> instances;
 };
 
+/// A primitive as its message has it, for people; instances of it have its place in EntityShapes::sources as their id.
+struct PrimitiveSource {
+  enum class Kind : std::uint8_t { Arrow, Cube, Sphere, Cylinder, Points, Axes };
+  Kind kind = Kind::Cube;
+  tf::RigidTransform pose;
+  std::array<double, 5> sizes{};  ///< what they mean is said by sizeNames()
+};
+[[nodiscard]] const char* toString(PrimitiveSource::Kind kind) noexcept;
+/// Names of the sizes that a kind has, as the messages call them.
+[[nodiscard]] std::span<const char* const> sizeNames(PrimitiveSource::Kind kind) noexcept;
+
 struct EntityShapes {
   std::vector<ShapeRun> runs;
+  std::vector<PrimitiveSource> sources;
   std::uint32_t unsound = 0;    ///< primitives whose numbers are not finite or beyond all reach: not drawn
   std::uint32_t flat = 0;       ///< drawn with a size of 0 along an axis
   std::uint32_t invisible = 0;  ///< of alpha 0: not drawn

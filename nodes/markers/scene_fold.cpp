@@ -173,7 +173,8 @@ void SceneHistory::Fold::add(const SceneEntity& entity, const std::shared_ptr<co
     made->expiry = {log_time.ns + entity.lifetime_ns};
   }
   made->shapes = shapesOf(entity, batches_.size() < kMostCells);
-  made->byte_size = sizeof(LiveEntity) + 3 * entity.id.size() + entity.frame_id.size() + 64;
+  made->byte_size =
+      sizeof(LiveEntity) + bytesOf(made->shapes.sources) + 3 * entity.id.size() + entity.frame_id.size() + 64;
   for (const auto& [key, value] : entity.metadata) {
     made->byte_size += 64 + key.size() + value.size();
   }

@@ -123,8 +123,54 @@ TEST_F(PickedThings, MarkersOfEveryKindAreToldApart) {
     expectPoint(result->picked.point_in_frame, c.point, std::string(c.id) == "sphere" ? 0.1 : 0.06);
     expectPoint(result->point_in_fixed, tf::transformPoint(kMapFromBase, result->picked.point_in_frame), 1e-8);
   }
+  const scenegraph::Picked cube = at(-4, 8)->picked;
+  EXPECT_EQ(field(cube, "pose_x"), "-4");
+  EXPECT_EQ(field(cube, "pose_qw"), "1");
+  EXPECT_EQ(field(cube, "size_z"), "4");
+  EXPECT_EQ(field(at(0, 8)->picked, "size_x"), "3");
+  EXPECT_EQ(field(at(-4, 4)->picked, "thickness"), "0.3");
+  EXPECT_EQ(field(at(4, -8)->picked, "width"), "0.5");
+  EXPECT_EQ(field(at(6, 8)->picked, "font_size"), "2");
+  EXPECT_EQ(field(at(6, 8)->picked, "text"), "MMM");
   EXPECT_EQ(field(at(-8, 8)->picked, "color"), "#ff8000");
   EXPECT_EQ(at(0, -8).error(), PickError::NothingThere);
+}
+
+TEST_F(PickedThings, ArrowsCylindersAndAxesSayTheirOwnPosesAndSizes) {
+  const tf::RigidTransform pose = test::turn(0.3, -5.0, 1.0 / 3.0, 0.0);
+  SceneEntities scene;
+  SceneEntity one = entityOf("all");
+  one.arrows.push_back({.pose = pose,
+                        .shaft_length = 3.0,
+                        .shaft_diameter = 1.1,
+                        .head_length = 1.0 / 3.0,
+                        .head_diameter = 2.0,
+                        .color = {}});
+  one.cylinders.push_back(
+      {.pose = translate(5, 5, 0), .size = {2, 3, 4}, .bottom_scale = 1.0, .top_scale = 0.5, .color = {}});
+  one.axes.push_back({.pose = translate(5, -5, 0), .length = 2.5, .thickness = 0.6});
+  scene.steps.push_back({false, 0});
+  scene.entities.push_back(one);
+  open(atBase().topic("/markers", ObjectType::SceneEntities).at(1_s, scene).build(), "map");
+  add("/markers");
+  drawDown();
+  const glm::dvec3 shaft = tf::transformPoint(pose, {1.5, 0, 0});
+  const auto arrow = at(shaft.x, shaft.y);
+  ASSERT_TRUE(arrow);
+  EXPECT_EQ(field(arrow->picked, "primitive"), "arrow");
+  EXPECT_EQ(field(arrow->picked, "pose_y"), scenegraph::pickText(1.0 / 3.0)) << "with every digit";
+  EXPECT_EQ(field(arrow->picked, "pose_qz"), scenegraph::pickText(pose.rotation.z));
+  EXPECT_EQ(field(arrow->picked, "head_length"), scenegraph::pickText(1.0 / 3.0));
+  EXPECT_EQ(field(arrow->picked, "shaft_diameter"), "1.1");
+  const auto cylinder = at(5, 5);
+  ASSERT_TRUE(cylinder);
+  EXPECT_EQ(field(cylinder->picked, "primitive"), "cylinder");
+  EXPECT_EQ(field(cylinder->picked, "size_y"), "3");
+  EXPECT_EQ(field(cylinder->picked, "top_scale"), "0.5");
+  const auto axes = at(6.5, -5);
+  ASSERT_TRUE(axes);
+  EXPECT_EQ(field(axes->picked, "primitive"), "axes");
+  EXPECT_EQ(field(axes->picked, "length"), "2.5");
 }
 
 TEST_F(PickedThings, SurfacesAreHitWhereTheRayMeetsThemNotWhereDepthIsRounded) {

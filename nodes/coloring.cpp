@@ -17,7 +17,7 @@ scenegraph::ColorLegend ValueColoring::legend(std::string title, std::string uni
   const Colormap* const found = findColormap(colormap);
   const Colormap& map = found != nullptr ? *found : colormaps().front();
   scenegraph::ColorLegend legend{
-      std::move(title), std::move(unit), range.low, range.high, {map.anchors.begin(), map.anchors.end()}};
+      std::move(title), std::move(unit), range.low, range.high, {map.anchors.begin(), map.anchors.end()}, has_legend};
   if (reverse_colormap) {
     std::ranges::reverse(legend.colors);
   }
@@ -26,6 +26,13 @@ scenegraph::ColorLegend ValueColoring::legend(std::string title, std::string uni
 
 std::string axisTitle(int axis, const std::string& fixed_frame) {
   return std::string(1, "xyz"[axis]) + (fixed_frame.empty() ? "" : " in " + fixed_frame);
+}
+
+scenegraph::SettingSpec legendSpec() {
+  return {.key = "legend",
+          .label = "Legend",
+          .help = "What the colours mean, over the picture.",
+          .kind = scenegraph::SettingKind::Bool};
 }
 
 scenegraph::SettingsTable<ValueColoring> valueColoringTable(const std::string& auto_help, const std::string& unit) {
@@ -74,7 +81,8 @@ scenegraph::SettingsTable<ValueColoring> valueColoringTable(const std::string& a
             .kind = SettingKind::Double,
             .minimum = 0,
             .maximum = 100},
-           &S::percentile_high}};
+           &S::percentile_high},
+          {legendSpec(), &S::has_legend}};
 }
 
 ValueRange extentAlong(int axis, const tf::RigidTransform& fixed_from_data, const glm::dvec3& low,

@@ -28,6 +28,7 @@ struct ValueColoring {
   double range_max = 1.0;
   double percentile_low = 1.0;
   double percentile_high = 99.0;
+  bool has_legend = true;
 
   friend bool operator==(const ValueColoring&, const ValueColoring&) = default;
 
@@ -44,6 +45,9 @@ struct ValueColoring {
   /// t of values stored less `offset`, run backwards where the colormap is.
   [[nodiscard]] RangeMap map(const ValueRange& range, double offset = 0.0) const noexcept;
 };
+
+/// The switch of a layer's legend, which every layer that has one has.
+[[nodiscard]] scenegraph::SettingSpec legendSpec();
 
 /// Rows of ValueColoring, for SettingsTable::with(). `auto_help` says what range "auto" takes; `unit` is " (m)" or "".
 [[nodiscard]] scenegraph::SettingsTable<ValueColoring> valueColoringTable(const std::string& auto_help,

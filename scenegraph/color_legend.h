@@ -14,6 +14,7 @@ struct ColorLegend {
   double low = 0.0;
   double high = 1.0;                              ///< below low where the colours run backwards
   std::vector<std::array<float, 3>> colors = {};  ///< sRGB-encoded, of low to high
+  bool is_shown = true;                           ///< over the picture; the layer's own setting
 
   friend bool operator==(const ColorLegend&, const ColorLegend&) = default;
 };

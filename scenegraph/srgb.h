@@ -16,11 +16,15 @@ namespace stillframe::scenegraph {
   return {linearFromSrgb(srgb.r), linearFromSrgb(srgb.g), linearFromSrgb(srgb.b)};
 }
 
-/// The way back, exact, rounded to the nearest byte; beyond [0, 1] is clamped, NaN is 0.
-[[nodiscard]] inline std::uint8_t srgbByteFromLinear(float linear) noexcept {
+/// The way back, exact; beyond [0, 1] is clamped, NaN is 0.
+[[nodiscard]] inline double srgbFromLinear(float linear) noexcept {
   const double value = std::isnan(linear) ? 0.0 : std::clamp(static_cast<double>(linear), 0.0, 1.0);
-  const double srgb = value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(srgb * 255.0));
+  return value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
+}
+
+/// The same, rounded to the nearest byte.
+[[nodiscard]] inline std::uint8_t srgbByteFromLinear(float linear) noexcept {
+  return static_cast<std::uint8_t>(std::lround(srgbFromLinear(linear) * 255.0));
 }
 
 }  // namespace stillframe::scenegraph

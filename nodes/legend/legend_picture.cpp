@@ -97,7 +97,7 @@ std::vector<LegendEntry> legendEntries(const scenegraph::Scene& scene) {
   std::vector<LegendEntry> entries;
   for (const auto& slot : scene.layers()) {
     if (auto legend = slot->layer->isVisible() ? slot->layer->legend() : std::nullopt;
-        legend && !legend->colors.empty()) {
+        legend && legend->is_shown && !legend->colors.empty()) {
       entries.push_back({slot->title, std::move(*legend)});
     }
   }

@@ -18,7 +18,7 @@ struct LegendEntry {
   friend bool operator==(const LegendEntry&, const LegendEntry&) = default;
 };
 
-/// Of the visible layers that colour by value, in their order.
+/// Of the visible layers that colour by value and are to have a legend, in their order.
 [[nodiscard]] std::vector<LegendEntry> legendEntries(const scenegraph::Scene& scene);
 
 /// 8 bits a component, sRGB-encoded, straight alpha, top row first.

@@ -134,14 +134,16 @@ std::optional<scenegraph::ColorLegend> OccupancyGridLayer::legend() const {
   if (product_ == nullptr) {
     return std::nullopt;
   }
+  constexpr std::array kBlack{0.0F, 0.0F, 0.0F};
+  constexpr std::array kWhite{1.0F, 1.0F, 1.0F};
   if (settings_.color_scheme == "raw") {
-    return scenegraph::ColorLegend{"byte", "", 0.0, 255.0, {{0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}}};
+    return scenegraph::ColorLegend{"byte", "", 0.0, 255.0, {kBlack, kWhite}, settings_.has_legend};
   }
   if (settings_.color_scheme == "costmap") {
     const auto color = [](float byte) { return std::array{byte / 255.0F, 0.0F, 1.0F - byte / 255.0F}; };
-    return scenegraph::ColorLegend{"cost", "", 1.0, 98.0, {color(2.0F), color(249.0F)}};
+    return scenegraph::ColorLegend{"cost", "", 1.0, 98.0, {color(2.0F), color(249.0F)}, settings_.has_legend};
   }
-  return scenegraph::ColorLegend{"occupancy", "%", 0.0, 100.0, {{1.0F, 1.0F, 1.0F}, {0.0F, 0.0F, 0.0F}}};
+  return scenegraph::ColorLegend{"occupancy", "%", 0.0, 100.0, {kWhite, kBlack}, settings_.has_legend};
 }
 
 scenegraph::LayerCounts OccupancyGridLayer::counts() const {

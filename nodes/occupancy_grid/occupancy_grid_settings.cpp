@@ -1,5 +1,7 @@
 #include "nodes/occupancy_grid/occupancy_grid_settings.h"
 
+#include "nodes/coloring.h"
+
 namespace stillframe::nodes {
 
 const scenegraph::SettingsTable<OccupancyGridSettings>& occupancyGridSettingsTable() {
@@ -26,7 +28,8 @@ const scenegraph::SettingsTable<OccupancyGridSettings>& occupancyGridSettingsTab
         .label = "Behind everything",
         .help = "Everything else is drawn over the grid, wherever it is.",
         .kind = SettingKind::Bool},
-       &S::draw_behind}};
+       &S::draw_behind},
+      {legendSpec(), &S::has_legend}};
   return kTable;
 }
 

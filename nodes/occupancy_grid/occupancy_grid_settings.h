@@ -11,6 +11,7 @@ struct OccupancyGridSettings {
   std::string color_scheme = "map";
   double alpha = 1.0;
   bool draw_behind = false;
+  bool has_legend = true;
 
   friend bool operator==(const OccupancyGridSettings&, const OccupancyGridSettings&) = default;
 };

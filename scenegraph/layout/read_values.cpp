@@ -10,10 +10,15 @@ namespace {
 
 constexpr std::size_t kLongestQuote = 80;
 
-std::expected<SettingValue, Status> readValue(const XmlElement& element, const SettingSpec& spec,
-                                              const std::string& text) {
-  const auto value = parseSetting(spec, text.substr(0, kLongestQuote));
-  return value ? std::expected<SettingValue, Status>(*value)
+/// The attribute that `spec` describes, or `absent` where there is none.
+template <typename Value>
+std::expected<Value, Status> readAs(const XmlElement& element, const SettingSpec& spec, Value absent) {
+  const std::string* const text = element.attribute(spec.key);
+  if (text == nullptr) {
+    return absent;
+  }
+  const auto value = parseSetting(spec, text->substr(0, kLongestQuote));
+  return value ? std::expected<Value, Status>(std::get<Value>(*value))
                : std::unexpected(badElement(element, value.error().message));
 }
 
@@ -26,7 +31,10 @@ Status badElement(const XmlElement& element, const std::string& why) {
       quoted += " " + std::string(key) + "=\"" + value->substr(0, kLongestQuote) + "\"";
     }
   }
-  return {StatusLevel::Error, "BadLayout", quoted + ">: " + why};
+  std::string line = quoted + ">: " + why;
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < 0x20; }, ' ');  // what is quoted may hold ends of lines
+  return {StatusLevel::Error, "BadLayout", std::move(line)};
 }
 
 std::expected<void, Status> checkVersion(const XmlElement& element, int version) {
@@ -45,30 +53,32 @@ std::expected<void, Status> checkVersion(const XmlElement& element, int version)
 }
 
 std::expected<bool, Status> readBool(const XmlElement& element, const std::string& key, bool absent) {
-  const std::string* const text = element.attribute(key);
-  if (text == nullptr) {
-    return absent;
-  }
-  const auto value = readValue(element, {.key = key, .label = {}, .help = {}, .kind = SettingKind::Bool}, *text);
-  return value ? std::expected<bool, Status>(std::get<bool>(*value)) : std::unexpected(value.error());
+  return readAs<bool>(element, {.key = key, .label = {}, .help = {}, .kind = SettingKind::Bool}, absent);
 }
 
 std::expected<int, Status> readInt(const XmlElement& element, const std::string& key, int absent, int minimum,
                                    int maximum) {
-  const std::string* const text = element.attribute(key);
-  if (text == nullptr) {
-    return absent;
-  }
-  const auto value = readValue(element,
-                               {.key = key,
-                                .label = {},
-                                .help = {},
-                                .kind = SettingKind::Int,
-                                .minimum = static_cast<double>(minimum),
-                                .maximum = static_cast<double>(maximum)},
-                               *text);
-  return value ? std::expected<int, Status>(static_cast<int>(std::get<std::int64_t>(*value)))
-               : std::unexpected(value.error());
+  const auto value = readAs<std::int64_t>(element,
+                                          {.key = key,
+                                           .label = {},
+                                           .help = {},
+                                           .kind = SettingKind::Int,
+                                           .minimum = static_cast<double>(minimum),
+                                           .maximum = static_cast<double>(maximum)},
+                                          absent);
+  return value ? std::expected<int, Status>(static_cast<int>(*value)) : std::unexpected(value.error());
+}
+
+std::expected<std::int64_t, Status> readInt64(const XmlElement& element, const std::string& key, std::int64_t absent) {
+  return readAs<std::int64_t>(element, {.key = key, .label = {}, .help = {}, .kind = SettingKind::Int}, absent);
+}
+
+std::expected<double, Status> readDouble(const XmlElement& element, const std::string& key, double absent,
+                                         double minimum, double maximum) {
+  return readAs<double>(
+      element,
+      {.key = key, .label = {}, .help = {}, .kind = SettingKind::Double, .minimum = minimum, .maximum = maximum},
+      absent);
 }
 
 std::string readText(const XmlElement& element, const std::string& key) {

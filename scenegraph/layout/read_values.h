@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <expected>
 #include <initializer_list>
 #include <optional>
@@ -24,6 +25,12 @@ namespace stillframe::scenegraph {
 /// Attribute `key` as a whole number within a range.
 [[nodiscard]] std::expected<int, Status> readInt(const XmlElement& element, const std::string& key, int absent,
                                                  int minimum, int maximum);
+/// The same of 64 bits.
+[[nodiscard]] std::expected<std::int64_t, Status> readInt64(const XmlElement& element, const std::string& key,
+                                                            std::int64_t absent);
+/// Attribute `key` as a finite number, within a range where minimum and maximum differ.
+[[nodiscard]] std::expected<double, Status> readDouble(const XmlElement& element, const std::string& key, double absent,
+                                                       double minimum = 0.0, double maximum = 0.0);
 [[nodiscard]] std::string readText(const XmlElement& element, const std::string& key);
 
 /// What writing knows of an element by its name: its own attributes and children; all else is somebody else's.

@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "scenegraph/layout/pick_layout.h"
 #include "scenegraph/layout/read_values.h"
 
 namespace stillframe::scenegraph {
@@ -31,8 +32,8 @@ std::vector<std::string> keysOf(const SettingTexts& texts, const std::vector<std
 const std::vector<KnownElement>& knownElements() {
   static const std::vector<KnownElement> kKnown = {
       {kViewElement,
-       {"version", "dataset", "fixed_frame", "camera_touched", "smooth_moves", "layer_panel", "effect_panel"},
-       {"Camera", "Follow", "Effects", "SavedView", "Layer", "RemovedLayer"}},
+       {"version", "dataset", "fixed_frame", "camera_touched", "smooth_moves", "layer_panel", "effect_panel", "legend"},
+       {"Camera", "Follow", "Effects", "SavedView", "Layer", "RemovedLayer", kPickedElement, kMeasurementElement}},
       {"Camera", keysOf(cameraTexts({}))},
       {"Follow", keysOf(followTexts({}), {kDisplayFrame})},
       {"Effects", {}},  // their texts hold what is unknown too
@@ -40,6 +41,7 @@ const std::vector<KnownElement>& knownElements() {
       {"Layer", {"id", "title", "visible"}, {"Setting"}, "id"},
       {"RemovedLayer", {"id"}, {}, "id"},
       {"Setting", {"key", "value"}, {}, "key"},
+      {kPickedElement, pickAttributes(), {"Field"}},
   };
   return kKnown;
 }
@@ -126,7 +128,7 @@ std::expected<void, Status> readChild(const XmlElement& child, ViewLayout& layou
   } else if (child.name == "RemovedLayer") {
     layout.layers.removed_topics.insert(readText(child, "id"));
   }
-  return {};
+  return readPicks(child, layout.picks);
 }
 
 }  // namespace
@@ -144,6 +146,7 @@ XmlElement toXml(const ViewLayout& layout) {
   view.set("smooth_moves", settingText(layout.has_smooth_moves));
   view.set("layer_panel", settingText(layout.shows_layers));
   view.set("effect_panel", settingText(layout.shows_effects));
+  view.set("legend", settingText(layout.shows_legend));
   addViewpoint(layout.viewpoint, view);
   view.children.push_back(textsElement("Effects", layout.effects));
   for (const SavedView& saved : layout.saved_views) {
@@ -157,6 +160,7 @@ XmlElement toXml(const ViewLayout& layout) {
   for (const std::string& topic : layout.layers.removed_topics) {
     view.children.emplace_back(XmlElement{"RemovedLayer"}).set("id", topic);
   }
+  addPicks(layout.picks, view);
   keepUnknown(view, layout.source, knownElements());
   return view;
 }
@@ -176,7 +180,7 @@ std::expected<ViewLayout, Status> viewLayoutOf(const XmlElement& element) {
   for (const auto& [key, member] :
        {std::pair("camera_touched", &ViewLayout::is_camera_touched),
         std::pair("smooth_moves", &ViewLayout::has_smooth_moves), std::pair("layer_panel", &ViewLayout::shows_layers),
-        std::pair("effect_panel", &ViewLayout::shows_effects)}) {
+        std::pair("effect_panel", &ViewLayout::shows_effects), std::pair("legend", &ViewLayout::shows_legend)}) {
     const auto value = readBool(element, key, layout.*member);
     if (!value) {
       return std::unexpected(value.error());

@@ -9,6 +9,7 @@
 #include "scenegraph/camera/view_camera.h"
 #include "scenegraph/layer_state.h"
 #include "scenegraph/layout/xml.h"
+#include "scenegraph/pick/pick_result.h"
 #include "scenegraph/settings.h"
 
 namespace stillframe::scenegraph {
@@ -24,6 +25,8 @@ struct ViewLayout {
   std::vector<SavedView> saved_views;
   SettingTexts effects;  ///< ViewEffects::toTexts()
   LayerList layers;
+  PickMarks picks;
+  bool shows_legend = true;  ///< what colours of values mean, over the picture
   bool shows_layers = true;  ///< the panels beside the picture
   bool shows_effects = false;
   /// What it was read from: what is unknown there is written again.

@@ -1,5 +1,6 @@
 #include "scenegraph/layout/window_layout.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -10,13 +11,14 @@ namespace {
 
 constexpr int kLayoutVersion = 1;
 constexpr int kLargestSide = 65'535;  // pixels
+constexpr int kFarthest = 1'000'000;  // of a window's corner, where many screens make one desktop
 constexpr std::size_t kMostViews = 64;
 constexpr std::size_t kLongestSizes = 8 * kMostViews;  // characters
 
 const std::vector<KnownElement>& knownElements() {
   static const std::vector<KnownElement> kKnown = {
-      {kLayoutElement, {"version"}, {"Window"}},
-      {"Window", {"width", "height", "docks"}, {"Splitter", kViewElement}},
+      {kLayoutElement, {"version", "active_view"}, {"Window"}},
+      {"Window", {"x", "y", "maximized", "width", "height", "docks"}, {"Splitter", kViewElement}},
       {"Splitter", {"orientation", "sizes"}, {"Splitter", kViewElement}},
   };
   return kKnown;
@@ -124,6 +126,16 @@ std::expected<WindowLayout, Status> windowOf(const XmlElement& element) {
   }
   window.width = *width;
   window.height = *height;
+  const auto x = readInt(element, "x", 0, -kFarthest, kFarthest);
+  const auto y = readInt(element, "y", 0, -kFarthest, kFarthest);
+  const auto is_maximized = readBool(element, "maximized", false);
+  if (!x || !y || !is_maximized) {
+    return std::unexpected(!x ? x.error() : !y ? y.error() : is_maximized.error());
+  }
+  if (element.attribute("x") != nullptr && element.attribute("y") != nullptr) {
+    window.corner = {*x, *y};
+  }
+  window.is_maximized = *is_maximized;
   window.docks = readText(element, "docks");
   for (const XmlElement& child : element.children) {
     if (isPlace(child)) {
@@ -160,6 +172,14 @@ void addViews(PlaceType& place, Views& views) {
   }
 }
 
+std::size_t depthOf(const XmlElement& element) {
+  std::size_t deepest = 0;
+  for (const XmlElement& child : element.children) {
+    deepest = std::max(deepest, depthOf(child));
+  }
+  return deepest + 1;
+}
+
 /// Views of somebody else's layout, side by side.
 std::expected<Layout, Status> foreignLayout(const XmlElement& root) {
   std::vector<const XmlElement*> found;
@@ -173,7 +193,11 @@ std::expected<Layout, Status> foreignLayout(const XmlElement& root) {
     return std::unexpected(badElement(root, "more than " + std::to_string(kMostViews) + " views"));
   }
   Place all;
+  constexpr std::size_t kOurOwn = 3;  // elements round a view in a layout of ours
   for (const XmlElement* const element : found) {
+    if (depthOf(*element) + kOurOwn > XmlLimits{}.depth) {
+      return std::unexpected(badElement(*element, "what is in it is nested too deep to be saved again"));
+    }
     auto place = placeOf(*element);
     if (!place) {
       return std::unexpected(place.error());
@@ -193,8 +217,16 @@ std::expected<Layout, Status> foreignLayout(const XmlElement& root) {
 XmlElement toXml(const Layout& layout) {
   XmlElement root{std::string(kLayoutElement)};
   root.set("version", std::to_string(kLayoutVersion));
+  root.set("active_view", std::to_string(layout.active_view));
   for (const WindowLayout& window : layout.windows) {
     XmlElement& element = root.children.emplace_back(XmlElement{"Window"});
+    if (window.corner) {
+      element.set("x", std::to_string(window.corner->first));
+      element.set("y", std::to_string(window.corner->second));
+    }
+    if (window.is_maximized) {
+      element.set("maximized", settingText(true));
+    }
     element.set("width", std::to_string(window.width));
     element.set("height", std::to_string(window.height));
     if (!window.docks.empty()) {
@@ -215,6 +247,11 @@ std::expected<Layout, Status> layoutOf(const XmlElement& root) {
     return std::unexpected(checked.error());
   }
   Layout layout;
+  const auto active = readInt(root, "active_view", layout.active_view, 1, static_cast<int>(kMostViews));
+  if (!active) {
+    return std::unexpected(active.error());
+  }
+  layout.active_view = *active;
   for (const XmlElement& child : root.children) {
     if (child.name == "Window") {
       auto window = windowOf(child);

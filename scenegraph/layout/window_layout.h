@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenegraph/layout/view_layout.h"
@@ -23,16 +24,19 @@ struct Place {
 
 /// A window of the inspector: the first of a layout is the main one, the others hold views that were taken out of it.
 struct WindowLayout {
-  int width = 1280;
+  std::optional<std::pair<int, int>> corner = {};  ///< upper left on the desktop, of the whole frame; absent: anywhere
+  bool is_maximized = false;
+  int width = 1280;  ///< when it is not maximized
   int height = 800;
-  std::string docks;  ///< state of its docks and tool bars, as text that only the window system's toolkit reads
-  Place place;
+  std::string docks = {};  ///< state of its docks and tool bars, as text that only the window system's toolkit reads
+  Place place = {};
   XmlElement source = {};
 };
 
 /// A whole arrangement: what `view --layout` opens and Save layout writes.
 struct Layout {
   std::vector<WindowLayout> windows;
+  int active_view = 1;  ///< the one that had the focus last, by its number in viewsOf(), from 1
   XmlElement source = {};
 };
 

@@ -44,6 +44,8 @@ struct Picked {
   }
   /// Its translation as "NAME_x", ... and its rotation as "NAME_qx", ... "NAME_qw"; without a name "x", ... "qw".
   void addPose(const std::string& name, const tf::RigidTransform& pose);
+
+  friend bool operator==(const Picked&, const Picked&) = default;
 };
 
 }  // namespace stillframe::scenegraph

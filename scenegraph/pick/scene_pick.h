@@ -10,21 +10,10 @@
 #include <vector>
 
 #include "scenegraph/pick/pick_hit.h"
-#include "scenegraph/pick/picked.h"
+#include "scenegraph/pick/pick_result.h"
 #include "scenegraph/scene.h"
 
 namespace stillframe::scenegraph {
-
-/// What was picked, whose it is, and where.
-struct PickResult {
-  std::string topic;  ///< of the layer, or its type's name
-  std::string layer;  ///< its type, for people
-  std::string frame;  ///< source frame
-  Picked picked;      ///< its position is in `frame`
-  std::string fixed_frame;
-  glm::dvec3 point_in_fixed{0.0};
-  tf::TimePoint time;  ///< that the scene showed
-};
 
 /// Why nothing was picked.
 enum class PickError : std::uint8_t {

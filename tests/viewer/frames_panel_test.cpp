@@ -11,6 +11,7 @@
 #include <QTreeWidget>
 #include <cmath>
 
+#include "tests/viewer/open_window.h"
 #include "tests/viewer/viewer_support.h"
 #include "viewer/frames/frame_memory.h"
 #include "viewer/frames/frame_picker.h"
@@ -20,8 +21,6 @@
 #include "viewer/frames/problem_list.h"
 #include "viewer/layers/layer_panel.h"
 #include "viewer/time/time_bar.h"
-#include "viewer/widget/scene_widget.h"
-#include "viewer/window/inspector_window.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -188,24 +187,22 @@ TEST(FrameMemory, OutlivesTheProgramForNamedSourcesOnly) {
   EXPECT_EQ(after_restart.recall("/data/run 1.mcap"), std::nullopt);
 }
 
-class FrameWindowTest : public testing::Test {
+class FrameWindowTest : public test::OpenWindowTest {
  protected:
   void open() {
-    window_ = std::make_unique<InspectorWindow>(test::fakeOpener(), InspectorOptions{.files = {"robot.mcap"}});
-    window_->show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-    QApplication::setActiveWindow(window_.get());  // no window manager does it here
-    ASSERT_TRUE(waitFor([this] { return window_->dataset() != nullptr && !window_->isLoading(); }));
-    settle();
+    OpenWindowTest::open();
+    activate();
   }
-  void TearDown() override { FrameMemory().remember("test", std::nullopt); }
+  void TearDown() override {
+    FrameMemory().remember("test", std::nullopt);
+    OpenWindowTest::TearDown();
+  }
   void pick(ViewPanel& panel, const QString& frame) {
     panel.framePicker().lineEdit()->selectAll();
     QTest::keyClicks(panel.framePicker().lineEdit(), frame);
     QTest::keyClick(panel.framePicker().lineEdit(), Qt::Key_Return);
     settle();
   }
-  std::unique_ptr<InspectorWindow> window_;
 };
 
 TEST_F(FrameWindowTest, ANewViewTakesTheFrameLastPickedByHandAndStaysAutomatic) {

@@ -1,18 +1,17 @@
-#include "viewer/window/inspector_window.h"
-
 #include <gtest/gtest.h>
 
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QMimeData>
+#include <QStatusBar>
 #include <QTest>
 #include <QUrl>
 
+#include "tests/viewer/open_window.h"
 #include "tests/viewer/viewer_support.h"
 #include "viewer/frames/frame_picker.h"
 #include "viewer/frames/frame_tree.h"
 #include "viewer/time/time_bar.h"
-#include "viewer/widget/scene_widget.h"
 #include "viewer/window/message_bar.h"
 
 namespace stillframe::viewer {
@@ -23,32 +22,13 @@ using test::settle;
 using test::waitFor;
 using tf::TimePoint;
 
-class InspectorWindowTest : public testing::Test {
- protected:
-  void open(InspectorOptions options) {
-    window_ = std::make_unique<InspectorWindow>(test::fakeOpener(), std::move(options));
-    window_->show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-  }
-  void openAndLoad(InspectorOptions options) {
-    open(std::move(options));
-    ASSERT_TRUE(waitFor([&] { return window_->isComplete(); }));
-    settle();
-  }
-  void TearDown() override {
-    for (ViewPanel* panel : window_->views()) {
-      EXPECT_EQ(panel->view().glMessages(), 0U);
-    }
-  }
-  SceneWidget& view(std::size_t index) { return window_->views().at(index)->view(); }
+class InspectorWindowTest : public test::OpenWindowTest {};
 
-  std::unique_ptr<InspectorWindow> window_;
-};
-
-TEST_F(InspectorWindowTest, OpensARecordingAndShowsItFromItsStart) {
-  openAndLoad({.files = {"robot.mcap"}});
+TEST_F(InspectorWindowTest, OpensARecordingWhereThereIsSomethingToSee) {
+  open({.files = {"robot.mcap"}});
   EXPECT_EQ(window_->timeBar().range(), (TimeRange{TimePoint{0}, TimePoint{10_s}}));
-  EXPECT_EQ(window_->timeBar().time(), TimePoint{0});
+  EXPECT_EQ(window_->timeBar().time(), TimePoint{1_s}) << "its first cloud";
+  EXPECT_TRUE(window_->statusBar()->currentMessage().contains(QStringLiteral("+1.000")));
   EXPECT_EQ(window_->windowTitle(), QStringLiteral("test - Stillframe"));
   EXPECT_EQ(window_->views().at(0)->framePicker().currentText(), QStringLiteral("auto (map)"));
   EXPECT_NE(window_->frameTree().item("lidar"), nullptr);
@@ -56,7 +36,7 @@ TEST_F(InspectorWindowTest, OpensARecordingAndShowsItFromItsStart) {
 }
 
 TEST_F(InspectorWindowTest, StartsAtTheTimeAndFrameAskedFor) {
-  openAndLoad({.files = {"robot.mcap"}, .time = "+2.5", .fixed_frame = "base_link", .views = 2});
+  open({.files = {"robot.mcap"}, .time = "+2.5", .fixed_frame = "base_link", .views = 2});
   EXPECT_EQ(window_->timeBar().time(), TimePoint{2_s + 500_ms});
   ASSERT_EQ(window_->views().size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -66,13 +46,13 @@ TEST_F(InspectorWindowTest, StartsAtTheTimeAndFrameAskedFor) {
 }
 
 TEST_F(InspectorWindowTest, OnlyTheNamedLayersAreThere) {
-  openAndLoad({.files = {"robot.mcap"}, .layers = {.layers = {{"/points", {}}}, .only = true}});
+  open({.files = {"robot.mcap"}, .layers = {.layers = {{"/points", {}}}, .only = true}});
   ASSERT_EQ(view(0).scene()->layers().size(), 1U);
   EXPECT_EQ(view(0).scene()->layers().front()->topic, "/points");
 }
 
 TEST_F(InspectorWindowTest, SliderMovesEveryView) {
-  openAndLoad({.files = {"robot.mcap"}, .views = 2});
+  open({.files = {"robot.mcap"}, .views = 2});
   window_->timeBar().slider().setValue(TimeBar::kSteps / 2);
   settle();
   EXPECT_EQ(view(0).scene()->time(), TimePoint{5_s});
@@ -80,14 +60,14 @@ TEST_F(InspectorWindowTest, SliderMovesEveryView) {
 }
 
 TEST_F(InspectorWindowTest, IdleDrawsNothing) {
-  openAndLoad({.files = {"robot.mcap"}, .views = 2});
+  open({.files = {"robot.mcap"}, .views = 2});
   const auto frames = view(0).framesDrawn() + view(1).framesDrawn();
   settle();
   EXPECT_EQ(view(0).framesDrawn() + view(1).framesDrawn(), frames);
 }
 
 TEST_F(InspectorWindowTest, BadFileSaysSoAndThePreviousRecordingStays) {
-  openAndLoad({.files = {"robot.mcap"}});
+  open({.files = {"robot.mcap"}});
   const auto dataset = window_->dataset();
   window_->openFiles({"bad.mcap"});
   ASSERT_TRUE(waitFor([&] { return !window_->messageBar().text().isEmpty(); }));
@@ -97,7 +77,7 @@ TEST_F(InspectorWindowTest, BadFileSaysSoAndThePreviousRecordingStays) {
 }
 
 TEST_F(InspectorWindowTest, BadFileAtStartLeavesAnEmptyWindowThatStillWorks) {
-  open({.files = {"bad.mcap"}});
+  show({.files = {"bad.mcap"}});
   ASSERT_TRUE(waitFor([&] { return !window_->messageBar().text().isEmpty(); }));
   window_->openFiles({"robot.mcap"});
   ASSERT_TRUE(waitFor([&] { return window_->isComplete(); }));
@@ -105,7 +85,7 @@ TEST_F(InspectorWindowTest, BadFileAtStartLeavesAnEmptyWindowThatStillWorks) {
 }
 
 TEST_F(InspectorWindowTest, DroppedFileIsOpened) {
-  open({});
+  show({});
   QMimeData data;
   data.setUrls({QUrl::fromLocalFile(QStringLiteral("/recordings/robot.mcap"))});
   QDragEnterEvent enter({10, 10}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
@@ -117,18 +97,18 @@ TEST_F(InspectorWindowTest, DroppedFileIsOpened) {
 }
 
 TEST_F(InspectorWindowTest, OpeningTheNextRecordingReplacesTheFirst) {
-  openAndLoad({.files = {"robot.mcap"}});
+  open({.files = {"robot.mcap"}});
   const auto first = window_->dataset();
   window_->timeBar().setTime(TimePoint{5_s});
   window_->openFiles({"robot.mcap"});
   ASSERT_TRUE(waitFor([&] { return window_->dataset() != first && window_->isComplete(); }));
   settle();
-  EXPECT_EQ(window_->timeBar().time(), TimePoint{0});
+  EXPECT_EQ(window_->timeBar().time(), TimePoint{1_s});
   EXPECT_GT(test::drawnPixels(view(0).grabFramebuffer()), 500);
 }
 
 TEST_F(InspectorWindowTest, SplitViewTakesOverTheStateAndGoesItsOwnWay) {
-  openAndLoad({.files = {"robot.mcap"}});
+  open({.files = {"robot.mcap"}});
   ASSERT_NE(view(0).scene()->findLayer("/points"), nullptr);
   view(0).setFixedFrame("odom");
   auto state = view(0).camera().state();
@@ -152,15 +132,15 @@ TEST_F(InspectorWindowTest, SplitViewTakesOverTheStateAndGoesItsOwnWay) {
 }
 
 TEST_F(InspectorWindowTest, ClickingAFrameLooksAtIt) {
-  openAndLoad({.files = {"robot.mcap"}, .time = "+4"});
+  open({.files = {"robot.mcap"}, .time = "+4"});
   Q_EMIT window_->frameTree().framePicked(QStringLiteral("base_link"));
   EXPECT_DOUBLE_EQ(view(0).camera().sight().focal_point.x, 4.0);
 }
 
 TEST_F(InspectorWindowTest, SpaceAndArrowsDriveTheTimeBar) {
-  openAndLoad({.files = {"robot.mcap"}});
-  window_->activateWindow();
-  ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
+  open({.files = {"robot.mcap"}, .time = "start"});
+  EXPECT_EQ(window_->timeBar().time(), TimePoint{0}) << "the start where it is asked for";
+  activate();
   view(0).setFocus();
   QTest::keyClick(&view(0), Qt::Key_Right);
   EXPECT_EQ(window_->timeBar().time(), TimePoint{1_s});
@@ -173,7 +153,7 @@ TEST_F(InspectorWindowTest, SpaceAndArrowsDriveTheTimeBar) {
 }
 
 TEST_F(InspectorWindowTest, MovedCameraIsNotTakenAwayWhenLoadingEnds) {
-  open({.files = {"robot.mcap"}});
+  show({.files = {"robot.mcap"}});
   ASSERT_TRUE(waitFor([&] { return window_->dataset() != nullptr; }));
   auto state = view(0).camera().state();
   state.camera.orbit.radius_m = 77.0;

@@ -1,6 +1,5 @@
 // What every window is judged by: colours, keys, names for screen readers, pictures of it, and how long it keeps still.
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <QAccessible>
 #include <QAction>
@@ -11,24 +10,19 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QSettings>
-#include <QSpinBox>
-#include <QTemporaryDir>
 #include <QTest>
 #include <QTimer>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <set>
 
+#include "tests/viewer/open_window.h"
 #include "tests/viewer/viewer_support.h"
 #include "viewer/frames/frame_tree.h"
 #include "viewer/time/time_bar.h"
-#include "viewer/widget/scene_widget.h"
 #include "viewer/window/desktop_colors.h"
 #include "viewer/window/icons.h"
-#include "viewer/window/inspector_window.h"
 #include "viewer/window/message_bar.h"
-#include "viewer/window/picture_dialog.h"
-#include "viewer/window/picture_saver.h"
 #include "viewer/window/stall_monitor.h"
 #include "viewer/window/theme.h"
 
@@ -38,21 +32,16 @@ namespace {
 using test::settle;
 using test::waitFor;
 
-class Look : public testing::Test {
+class Look : public test::OpenWindowTest {
  protected:
   void open(InspectorOptions options = {.files = {"robot.mcap"}}) {
-    window_ = std::make_unique<InspectorWindow>(test::fakeOpener(), std::move(options));
-    window_->show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-    ASSERT_TRUE(waitFor([&] { return window_->isComplete(); }));
-    settle();
-    window_->activateWindow();
-    ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
+    OpenWindowTest::open(std::move(options));
+    activate();
   }
-  void TearDown() override { applyTheme(Theme::System); }
-  SceneWidget& view() { return window_->views().front()->view(); }
-
-  std::unique_ptr<InspectorWindow> window_;
+  void TearDown() override {
+    applyTheme(Theme::System);
+    OpenWindowTest::TearDown();
+  }
 };
 
 TEST_F(Look, ThemesAreSwitchedInTheMenuAndRemembered) {
@@ -200,94 +189,6 @@ TEST_F(Look, EveryMenuHasAKeyAndNoTwoActionsShareAShortcut) {
       EXPECT_TRUE(keys.isEmpty() || taken.insert(keys).second) << keys.toStdString();
     }
   }
-}
-
-struct RgbaFile {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> bytes;
-};
-
-RgbaFile readRgba(const QString& file) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  EXPECT_NE(png_image_begin_read_from_file(&image, file.toLocal8Bit().constData()), 0) << file.toStdString();
-  image.format = PNG_FORMAT_RGBA;
-  std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(image));
-  EXPECT_NE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr), 0);
-  return {static_cast<int>(image.width), static_cast<int>(image.height), std::move(bytes)};
-}
-
-TEST_F(Look, APictureOfTheViewHasAnySizeAndAlpha) {
-  open({.files = {"robot.mcap"}, .time = "+1"});
-  const QTemporaryDir folder;
-  const auto executor = scenegraph::makeThreadPoolExecutor(1);
-  PictureSaver saver(*executor);
-  QStringList saved;
-  QObject::connect(&saver, &PictureSaver::saved, &saver, [&](const QString& file) { saved << file; });
-  QString error;
-  QObject::connect(&saver, &PictureSaver::failed, &saver, [&](const QString& message) { error = message; });
-  const QImage before = view().grabFramebuffer();
-
-  saver.saveView(view(), {.width_px = 700, .height_px = 300, .is_transparent = true}, folder.filePath("clear.png"));
-  saver.saveView(view(), {.width_px = 64, .height_px = 64}, folder.filePath("solid.png"));
-  saver.saveView(view(), {.width_px = 64, .height_px = 64}, folder.filePath("light.exr"));
-  EXPECT_EQ(saver.pending(), 3);
-  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
-  EXPECT_EQ(saved.size(), 3) << error.toStdString();
-  const RgbaFile clear = readRgba(folder.filePath("clear.png"));
-  EXPECT_EQ(clear.width, 700);
-  EXPECT_EQ(clear.height, 300);
-  std::size_t nothing = 0;
-  std::size_t opaque = 0;
-  for (std::size_t i = 3; i < clear.bytes.size(); i += 4) {
-    nothing += clear.bytes[i] == 0 ? 1U : 0U;
-    opaque += clear.bytes[i] == 255 ? 1U : 0U;
-  }
-  EXPECT_GT(nothing, 50'000U);
-  EXPECT_GT(opaque, 1'000U);
-  const RgbaFile solid = readRgba(folder.filePath("solid.png"));
-  for (std::size_t i = 3; i < solid.bytes.size(); i += 4) {
-    ASSERT_EQ(solid.bytes[i], 255);
-  }
-  EXPECT_GT(QFileInfo(folder.filePath("light.exr")).size(), 1000);
-
-  settle();
-  EXPECT_EQ(view().grabFramebuffer(), before) << "the view goes on as it was";
-  EXPECT_EQ(view().glMessages(), 0U);
-  EXPECT_EQ(view().takePicture({.width_px = 1'000'000, .height_px = 10}).error().code, "TooLarge");
-  EXPECT_EQ(view().takePicture({.width_px = 0, .height_px = 10}).error().code, "BadSize");
-  EXPECT_EQ(SceneWidget().takePicture({}).error().code, "NotDrawn");
-  saver.saveView(view(), {.width_px = 8, .height_px = 8}, folder.filePath("no/such/a.png"));
-  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
-  EXPECT_TRUE(error.contains(QStringLiteral("no/such/a.png")));
-}
-
-TEST_F(Look, APictureOfTheWindowIsAllOfIt) {
-  open();
-  const QTemporaryDir folder;
-  const auto executor = scenegraph::makeThreadPoolExecutor(1);
-  PictureSaver saver(*executor);
-  saver.saveWindow(*window_, folder.filePath("window.png"));
-  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
-  const QImage image(folder.filePath("window.png"));
-  EXPECT_EQ(image.size(), window_->size() * window_->devicePixelRatioF());
-  EXPECT_GT(test::drawnPixels(image), 1000);
-}
-
-TEST_F(Look, TheMenuAsksForSizeAndFile) {
-  open();
-  const QTemporaryDir folder;
-  QTimer::singleShot(0, window_.get(), [&] {
-    auto* const dialog = qobject_cast<PictureDialog*>(QApplication::activeModalWidget());
-    ASSERT_NE(dialog, nullptr);
-    dialog->findChild<QSpinBox*>(QStringLiteral("width"))->setValue(123);
-    EXPECT_EQ(dialog->request().width_px, 123);
-    EXPECT_FALSE(dialog->request().is_transparent);
-    dialog->reject();
-  });
-  window_->findChild<QAction*>(QStringLiteral("savePicture"))->trigger();
-  EXPECT_EQ(window_->messageBar().text(), QString());
 }
 
 TEST_F(Look, EffectsAskedForAtTheStartAreInEveryView) {

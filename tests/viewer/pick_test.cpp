@@ -3,18 +3,17 @@
 
 #include <QApplication>
 #include <QClipboard>
-#include <QMouseEvent>
 #include <QTest>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "tests/viewer/shown_widget.h"
 #include "tests/viewer/viewer_support.h"
 #include "viewer/pick/hover_label.h"
 #include "viewer/pick/inspect_panel.h"
 #include "viewer/pick/view_picks.h"
-#include "viewer/widget/scene_widget.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -25,46 +24,17 @@ using test::settle;
 using test::waitFor;
 using tf::TimePoint;
 
-constexpr scenegraph::PictureSize kSize{400.0, 300.0};
-
-class WidgetPickTest : public testing::Test {
+class WidgetPickTest : public test::ShownWidgetTest {
  protected:
   WidgetPickTest() {
-    widget_.resize(400, 300);
-    widget_.setSmoothMoves(false);
-    widget_.setDataset(dataset_, *executor_);
-    widget_.scene()->addDefaultLayers();
     widget_.scene()->findLayer("tf")->layer->setVisible(false);
-    widget_.setTime(TimePoint{2_s});
-    widget_.show();
-    if (!QTest::qWaitForWindowExposed(&widget_)) {
-      ADD_FAILURE() << "no window";
-    }
+    widget_.requestTick();
     settle();
   }
-  void TearDown() override { EXPECT_EQ(widget_.glMessages(), 0U) << "OpenGL debug output must be silent"; }
 
   /// Where a point of the cloud in "lidar" is in the view; the points lie 5 cm apart, from -1 to 1.
-  QPointF at(double x, double y) {
-    const auto pose = widget_.scene()->frames().fixedFromFrame("lidar");
-    const auto on = scenegraph::toScreen(widget_.shownView(), kSize, tf::transformPoint(*pose, {x, y, 0.0}));
-    return {on->position_px.x, on->position_px.y};
-  }
-  void click(QPointF place, Qt::KeyboardModifiers modifiers = {}) {
-    QTest::mouseClick(&widget_, Qt::LeftButton, modifiers, place.toPoint());
-    settle();
-  }
-  void move(QPointF place) {
-    QTest::mouseMove(&widget_, place.toPoint());
-    QMouseEvent event(QEvent::MouseMove, place, widget_.mapToGlobal(place), Qt::NoButton, {}, {});
-    QApplication::sendEvent(&widget_, &event);
-    settle();
-  }
+  QPointF at(double x, double y) { return pixelOf("lidar", {x, y, 0.0}); }
   const std::optional<scenegraph::PickResult>& selected() { return widget_.picks().selected(); }
-
-  std::shared_ptr<scenegraph::Dataset> dataset_ = test::makeRobotDataset();
-  std::unique_ptr<scenegraph::Executor> executor_ = scenegraph::makeSynchronousExecutor();
-  SceneWidget widget_;
 };
 
 TEST_F(WidgetPickTest, ClickSelectsThePointAndFFramesIt) {
@@ -81,8 +51,8 @@ TEST_F(WidgetPickTest, ClickSelectsThePointAndFFramesIt) {
   const glm::dvec3 point_in_fixed = tf::transformPoint(*pose, selected()->picked.point_in_frame);
   EXPECT_LT(glm::distance(widget_.camera().sight().focal_point, point_in_fixed), 1e-6);
   settle();
-  ASSERT_TRUE(widget_.picks().ring());
-  EXPECT_LT(std::abs(widget_.picks().ring()->x() - 200.0), 1.0);
+  ASSERT_TRUE(widget_.picks().placed().ring_px);
+  EXPECT_LT(std::abs(widget_.picks().placed().ring_px->x - 200.0), 1.0);
   click({3, 3});
   EXPECT_FALSE(selected()) << "a click on nothing deselects";
   EXPECT_FALSE(widget_.selection());
@@ -91,15 +61,15 @@ TEST_F(WidgetPickTest, ClickSelectsThePointAndFFramesIt) {
 TEST_F(WidgetPickTest, HoverSaysWhatIsThereAndDrawsNoFrame) {
   auto* const label = widget_.findChild<HoverLabel*>();
   ASSERT_NE(label, nullptr);
-  move(at(0.0, 0.0));
+  hover(at(0.0, 0.0));
   EXPECT_TRUE(waitFor([&] { return label->thing().startsWith(QStringLiteral("/points  point")); }))
       << label->thing().toStdString();
   const auto frames = widget_.framesDrawn();
   for (int i = 0; i < 20; ++i) {
-    move(at(0.02 * i - 0.2, 0.1));
+    hover(at(0.02 * i - 0.2, 0.1));
   }
   EXPECT_EQ(widget_.framesDrawn(), frames);
-  move({3, 3});
+  hover({3, 3});
   EXPECT_TRUE(waitFor([&] { return label->thing().isEmpty(); }));  // at once, or when the cursor rests
   EXPECT_TRUE(label->isHidden());
 }
@@ -120,23 +90,23 @@ TEST_F(WidgetPickTest, ShiftClickMeasuresAndTheLineGoesWithItsFrames) {
   ASSERT_TRUE(selected());
   const glm::dvec3 to = selected()->picked.point_in_frame;
   ASSERT_EQ(widget_.picks().measured().size(), 1U);
-  const auto length = ViewPicks::lengthOf(*widget_.scene(), widget_.picks().measured().front());
+  const auto length = scenegraph::measureNow(*widget_.scene(), widget_.picks().measured().front());
   ASSERT_TRUE(length);
   EXPECT_NEAR(length->length_m, glm::distance(from, to), 1e-9);
   EXPECT_NEAR(length->delta_in_fixed.x, to.x - from.x, 1e-9);
-  ASSERT_EQ(widget_.picks().lines().size(), 1U);
-  const QLineF before = widget_.picks().lines().front();
+  ASSERT_EQ(widget_.picks().placed().lines.size(), 1U);
+  const auto before = widget_.picks().placed().lines.front();
   widget_.setTime(TimePoint{3_s});  // base_link goes on by a metre
   settle();
-  ASSERT_EQ(widget_.picks().lines().size(), 1U);
-  EXPECT_NE(widget_.picks().lines().front(), before);
+  ASSERT_EQ(widget_.picks().placed().lines.size(), 1U);
+  EXPECT_NE(widget_.picks().placed().lines.front(), before);
   click({3, 3}, Qt::ShiftModifier);
   EXPECT_EQ(widget_.picks().measured().size(), 1U) << "nothing to measure to";
   QTest::keyClick(&widget_, Qt::Key_Delete);
   EXPECT_TRUE(widget_.picks().measured().empty());
   EXPECT_FALSE(selected());
   settle();
-  EXPECT_TRUE(widget_.picks().lines().empty());
+  EXPECT_TRUE(widget_.picks().placed().lines.empty());
 }
 
 TEST_F(WidgetPickTest, OutsideCollapsedAndGoneAreNothing) {

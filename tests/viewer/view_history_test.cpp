@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QTest>
+#include <QToolButton>
 
 #include "tests/viewer/viewer_support.h"
 #include "viewer/frames/frame_picker.h"
@@ -38,6 +39,12 @@ class ViewHistoryTest : public testing::Test {
   LayerTree& tree() { return panel_.layerPanel().tree(); }
   scenegraph::Scene& scene() { return *panel_.view().scene(); }
   std::string setting(const char* id, const char* key) { return scene().findLayer(id)->layer->settings().at(key); }
+  void set(const char* id, const char* key, const char* text) {
+    ASSERT_TRUE(scene().findLayer(id)->layer->applySettings({{key, text}}));
+    panel_.history().note(QString::fromLatin1(key));
+    panel_.view().applyTick();
+    test::settle();
+  }
   void set(const char* id, const char* key, double value) {
     tree().settingRows(id)->editor(key)->findChild<QDoubleSpinBox*>()->setValue(value);
   }
@@ -75,6 +82,24 @@ TEST_F(ViewHistoryTest, ASliderDraggedIsOneStep) {
   set("/points", "opacity", 0.7);
   set("/points", "opacity", 1.0);
   EXPECT_EQ(stack().count(), 0) << "there and back is nothing";
+}
+
+TEST_F(ViewHistoryTest, LegendsAreSwitchedWholeAndByLayerAndComeBack) {
+  set("/points", "color_field", "z");
+  ASSERT_EQ(panel_.legend().entries().size(), 1U);
+  auto* const button = panel_.findChild<QToolButton*>(QStringLiteral("legendButton"));
+  QTest::mouseClick(button, Qt::LeftButton);
+  EXPECT_TRUE(panel_.legend().isHidden());
+  EXPECT_FALSE(panel_.layout().shows_legend);
+  stack().undo();
+  EXPECT_FALSE(panel_.legend().isHidden());
+  EXPECT_TRUE(button->isChecked());
+  set("/points", "legend", "false");
+  EXPECT_TRUE(panel_.legend().isHidden());
+  EXPECT_NE(scene().findLayer("/points")->layer->legend(), std::nullopt) << "what the range editor shows stays";
+  stack().undo();
+  panel_.view().applyTick();
+  EXPECT_FALSE(panel_.legend().isHidden());
 }
 
 TEST_F(ViewHistoryTest, LayersComeGoMoveAndHaveNames) {
@@ -192,7 +217,7 @@ TEST_F(ViewHistoryTest, MeasuredDrawTimesAreShownUntilSomethingChanges) {
   };
   EXPECT_TRUE(cost().startsWith(QStringLiteral("1,681 vertices in 1 draw call"))) << cost().toStdString();
   EXPECT_TRUE(cost().contains(QStringLiteral("decoded in")));
-  Q_EMIT panel_.layerPanel().measureRequested();
+  Q_EMIT panel_.layerPanel().drawTimesRequested();
   EXPECT_TRUE(cost().contains(QStringLiteral("drawn in"))) << cost().toStdString();
   set("/points", "opacity", 0.5);
   panel_.view().applyTick();

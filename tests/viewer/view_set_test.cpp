@@ -15,10 +15,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/viewer/open_window.h"
 #include "tests/viewer/viewer_support.h"
+#include "viewer/layers/legend_overlay.h"
+#include "viewer/pick/inspect_dock.h"
+#include "viewer/pick/view_picks.h"
 #include "viewer/time/time_bar.h"
-#include "viewer/widget/scene_widget.h"
-#include "viewer/window/inspector_window.h"
 #include "viewer/window/message_bar.h"
 #include "viewer/window/view_window.h"
 
@@ -30,25 +32,13 @@ using test::settle;
 using test::waitFor;
 using tf::TimePoint;
 
-class ViewSetTest : public testing::Test {
+class ViewSetTest : public test::OpenWindowTest {
  protected:
   void SetUp() override { open({.files = {"robot.mcap"}, .time = "+3"}); }
   void open(InspectorOptions options) {
     options.width = 1000;  // small pictures: OpenGL is software here
     options.height = 640;
-    window_ = std::make_unique<InspectorWindow>(test::fakeOpener(), std::move(options));
-    window_->show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-    complete();
-  }
-  void complete() {
-    ASSERT_TRUE(waitFor([&] { return window_->isComplete(); }));
-    settle();
-  }
-  void TearDown() override {
-    for (ViewPanel* const panel : views()) {
-      EXPECT_EQ(panel->view().glMessages(), 0U);
-    }
+    OpenWindowTest::open(std::move(options));
   }
   ViewSet& set() { return window_->viewSet(); }
   const std::vector<ViewPanel*>& views() { return window_->views(); }
@@ -87,8 +77,6 @@ class ViewSetTest : public testing::Test {
     return waitFor([&] { return panel.view().framesDrawn() > before; }) &&
            test::drawnPixels(panel.view().grabFramebuffer()) > 300;
   }
-
-  std::unique_ptr<InspectorWindow> window_;
 };
 
 TEST_F(ViewSetTest, ButtonsSplitAViewBothWays) {
@@ -264,6 +252,73 @@ TEST_F(LayoutFileTest, OpenedLayoutReplacesTheViewsOfAWindow) {
   open({.files = {"robot.mcap"}, .time = "+3", .views = 2});
   ASSERT_TRUE(window_->openLayout(file_.toStdString()));
   expectRestored();
+}
+
+TEST_F(LayoutFileTest, WindowsComeBackToTheirPlacesWhileAScreenShowsThem) {
+  window_->move(120, 90);
+  set().windows()[0]->move(333, 222);
+  settle();
+  const scenegraph::Layout layout = window_->layout();
+  ASSERT_EQ(layout.windows[0].corner, std::pair(120, 90));
+  ASSERT_EQ(layout.windows[1].corner, std::pair(333, 222));
+  open({.files = {"robot.mcap"}, .time = "+3", .layout = layout});
+  EXPECT_EQ(window_->pos(), QPoint(120, 90));
+  EXPECT_EQ(set().windows()[0]->pos(), QPoint(333, 222));
+  scenegraph::Layout elsewhere = layout;
+  elsewhere.windows[0].corner = {-5000, 90};
+  elsewhere.windows[1].corner = {100, 100'000};
+  window_->restore(elsewhere);
+  settle();
+  EXPECT_EQ(window_->pos(), QPoint(120, 90)) << "where no screen is, nobody finds it";
+  EXPECT_LT(set().windows()[0]->pos().y(), 1200);
+}
+
+TEST_F(LayoutFileTest, PicksMeasurementsAndLegendsComeBack) {
+  ViewPanel& panel = *views()[1];
+  scenegraph::PickResult pick{
+      .topic = "/points", .layer = "Point cloud", .frame = "lidar", .picked = {}, .fixed_frame = "map", .time = {}};
+  pick.picked.kind = "point";
+  pick.picked.id = "7";
+  panel.view().picks().select(pick);
+  pick.frame = "base_link";
+  panel.view().picks().measureTo(pick);
+  panel.setLegendShown(false);
+  activate();
+  panel.view().setFocus();
+  settle();
+  EXPECT_EQ(&set().active(), &panel);
+  const scenegraph::PickMarks marks = panel.view().picks().marks();
+  ASSERT_TRUE(window_->saveLayout(file_.toStdString()));
+  open({.files = {"robot.mcap"}, .time = "+3", .layout = scenegraph::readLayout(file_.toStdString()).value()});
+  activate();
+  settle();
+  SceneWidget& view = views()[1]->view();
+  EXPECT_EQ(view.picks().marks(), marks);
+  EXPECT_EQ(&set().active(), views()[1]) << "what the panels at the side tell of";
+  ASSERT_EQ(view.picks().placed().lines.size(), 1U);
+  EXPECT_EQ(view.picks().placed().lines[0].text, "1 m  (dx 0, dy 0, dz -1)");
+  ASSERT_TRUE(view.selection());
+  EXPECT_EQ(view.selection()->frame, "base_link") << "F frames it";
+  EXPECT_FALSE(views()[1]->legend().isEnabledByUser());
+  EXPECT_TRUE(views()[0]->legend().isEnabledByUser());
+  EXPECT_FALSE(window_->inspect().isHidden()) << "as it was saved";
+  EXPECT_EQ(window_->messageBar().text(), QString());
+  const QString again = folder_.filePath(QStringLiteral("again.xml"));
+  ASSERT_TRUE(window_->saveLayout(again.toStdString()));
+  EXPECT_EQ(textOf(again), textOf(file_));
+}
+
+TEST_F(LayoutFileTest, PicksInAFrameThatIsNotThereAreTold) {
+  auto layout = scenegraph::readLayout(file_.toStdString()).value();
+  scenegraph::PickResult pick{
+      .topic = "/radar", .layer = {}, .frame = "radar", .picked = {}, .fixed_frame = "map", .time = {}};
+  scenegraph::viewsOf(layout)[1]->picks.selected = pick;
+  open({.files = {"robot.mcap"}, .time = "+3", .layout = layout});
+  EXPECT_TRUE(window_->messageBar().text().contains(QStringLiteral("'radar'")))
+      << window_->messageBar().text().toStdString();
+  EXPECT_TRUE(views()[1]->view().picks().placed().isEmpty());
+  EXPECT_EQ(window_->layout().windows.size(), 2U);
+  EXPECT_EQ(scenegraph::viewsOf(std::as_const(layout))[1]->picks.selected, pick) << "and kept";
 }
 
 TEST_F(LayoutFileTest, BrokenLayoutChangesNothing) {

@@ -48,7 +48,9 @@ constexpr std::array kGroups{
     std::pair("points", &benchPoints),     std::pair("ticks", &benchTicks),
     std::pair("messages", &benchMessages), std::pair("transforms", &benchTransforms),
 };
+// Cases of a recording.
 constexpr const char* kRecording = "recording";
+constexpr const char* kViews = "views";
 
 std::string processorName() {
   std::ifstream cpuinfo("/proc/cpuinfo");
@@ -195,7 +197,8 @@ Json toJson(const std::vector<BenchResult>& results, const Machine& machine) {
 }
 
 /// Of the file, or of a sample made for it.
-Result<void> benchFile(std::string file, std::vector<BenchResult>& results, std::string& renderer) {
+Result<void> benchFile(std::string file, bool with_recording, bool with_views, std::vector<BenchResult>& results,
+                       std::string& renderer) {
   const TemporarySample sample;
   if (file.empty()) {
     file = sample.path().string();
@@ -210,10 +213,12 @@ Result<void> benchFile(std::string file, std::vector<BenchResult>& results, std:
     }
     results.push_back({"sample recording of 10 s, made", made_s * 1e3, "ms", 2000.0});
   }
-  if (const auto done = benchRecording(file, results, renderer); !done) {
-    return done;
+  if (with_recording) {
+    if (const auto done = benchRecording(file, results, renderer); !done) {
+      return done;
+    }
   }
-  return benchViews(file, results);
+  return with_views ? benchViews(file, results) : Result<void>{};
 }
 
 Result<void> runBench(const BenchOptions& options) {
@@ -241,8 +246,9 @@ Result<void> runBench(const BenchOptions& options) {
     if (const auto done = benchScrub(options.file, results); !done) {
       return done;
     }
-  } else if (isChosen(kRecording)) {
-    if (const auto done = benchFile(options.file, results, machine.renderer); !done) {
+  } else if (isChosen(kRecording) || isChosen(kViews)) {
+    if (const auto done = benchFile(options.file, isChosen(kRecording), isChosen(kViews), results, machine.renderer);
+        !done) {
       return done;
     }
   }
@@ -269,7 +275,7 @@ Result<void> runBench(const BenchOptions& options) {
 Command addBenchCommand(CLI::App& app) {
   auto options = std::make_shared<BenchOptions>();
   app.add_option("FILE", options->file, "The recording to measure with; default: the sample recording");
-  std::vector<std::string> names{kRecording};
+  std::vector<std::string> names{kRecording, kViews};
   for (const auto& [name, measure] : kGroups) {
     names.emplace_back(name);
   }

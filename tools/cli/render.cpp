@@ -8,14 +8,15 @@
 #include <memory>
 #include <numbers>
 
+#include "nodes/legend/picture_overlay.h"
 #include "scenegraph/export/picture_io.h"
 #include "scenegraph/export/picture_normals.h"
+#include "scenegraph/pick/place_picks.h"
 #include "scenegraph/pipeline/offscreen_renderer.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/effect_arguments.h"
 #include "tools/cli/layer_ids.h"
 #include "tools/cli/layer_report.h"
-#include "tools/cli/picture_legend.h"
 #include "tools/cli/picture_sequence.h"
 #include "tools/cli/scene_session.h"
 
@@ -32,6 +33,8 @@ struct RenderCommandOptions {
   std::string turntable;
   bool is_json = false;
   bool has_legend = false;
+  bool has_no_legend = false;
+  bool has_no_picks = false;
 };
 
 struct Channels {
@@ -91,6 +94,7 @@ struct Run {
   Channels channels;
   bool is_exr = false;
   bool has_legend = false;
+  scenegraph::PickMarks picks;
 };
 
 volatile std::sig_atomic_t is_interrupted = 0;
@@ -150,8 +154,9 @@ Result<scenegraph::FrameStatistics> takeShot(const Run& run, const Shot& shot, S
     session.showTime(shot.time);
   }
   const scenegraph::CameraView camera = session.camera(shot.turn_rad);
-  session.scene().setView(camera,
-                          {static_cast<double>(run.view.size.width_px), static_cast<double>(run.view.size.height_px)});
+  const scenegraph::PictureSize size{static_cast<double>(run.view.size.width_px),
+                                     static_cast<double>(run.view.size.height_px)};
+  session.scene().setView(camera, size);
   // An .exr is scene-linear, before the tone curve.
   const scenegraph::RenderOptions options{run.view.size.width_px, run.view.size.height_px, run.view.background,
                                           run.is_exr ? run.effects.linearChain() : run.effects.chain(),
@@ -169,8 +174,10 @@ Result<scenegraph::FrameStatistics> takeShot(const Run& run, const Shot& shot, S
       return std::unexpected(fileError(shot.file, added.error()));
     }
   }
+  nodes::PictureOverlay overlay(picture->rgba, picture->width, picture->height, nodes::overlayScale(picture->height));
+  overlay.addPicks(scenegraph::placePicks(session.scene(), camera, size, run.picks));
   if (run.has_legend) {
-    addLegends(session.scene(), *picture);
+    overlay.addLegends(nodes::legendEntries(session.scene()));
   }
   const auto written =
       run.is_exr ? scenegraph::writeExr(*picture, shot.file) : scenegraph::writePng(*picture, shot.file);
@@ -178,6 +185,19 @@ Result<scenegraph::FrameStatistics> takeShot(const Run& run, const Shot& shot, S
     return std::unexpected(fileError(shot.file, written.error()));
   }
   return frame;
+}
+
+/// The lengths that the layout keeps, as they are now; null where an end has no place.
+Json measurementsJson(const Run& run, const scenegraph::Scene& scene) {
+  Json json = Json::array();
+  for (const auto& pair : run.picks.measured) {
+    const auto measured = scenegraph::measureNow(scene, pair);
+    json.push_back(
+        measured ? Json{{"length_m", measured->length_m},
+                        {"delta", {measured->delta_in_fixed.x, measured->delta_in_fixed.y, measured->delta_in_fixed.z}}}
+                 : Json(nullptr));
+  }
+  return json;
 }
 
 /// The whole answer for one picture; for several, what they share, to which "pictures" is added.
@@ -192,6 +212,7 @@ Json runJson(const Run& run, SceneSession& session, scenegraph::OffscreenRendere
           {"samples", frame.samples},
           {"points", pointsJson(frame)},
           {"layers", layersJson(session.scene())},
+          {"measurements", measurementsJson(run, session.scene())},
           {"renderer", renderer.context().info().renderer},
           {"layout_notes", session.layoutNotes()},
           {"problems", problemsJson(session.scene().dataset().problems())}};
@@ -225,11 +246,17 @@ Result<Run> prepare(const RenderCommandOptions& options) {
   if (!channels) {
     return std::unexpected(channels.error());
   }
-  return Run{.view = std::move(*view),
+  // An .exr is the scene alone. A layout's picture is the window's, unless something else is said.
+  const auto& layout = view->layout;
+  const bool has_legend = options.has_legend || (layout && layout->shows_legend && !options.has_no_legend);
+  const scenegraph::PickMarks picks =
+      layout && !options.has_no_picks && !is_exr ? layout->picks : scenegraph::PickMarks{};
+  return Run{.view = *view,
              .effects = std::move(*effects),
              .channels = *channels,
              .is_exr = is_exr,
-             .has_legend = options.has_legend};
+             .has_legend = has_legend && !is_exr,
+             .picks = picks};
 }
 
 Result<void> runRender(const RenderCommandOptions& options) {
@@ -273,13 +300,14 @@ Result<void> runRender(const RenderCommandOptions& options) {
                           {"turn_deg", glm::degrees(shot.turn_rad)},
                           {"frame_ms", frame->frame_ms},
                           {"points", pointsJson(*frame)},
-                          {"layers", layersJson(session.scene())}});
+                          {"layers", layersJson(session.scene())},
+                          {"measurements", measurementsJson(*run, session.scene())}});
     }
   }
   if (options.is_json) {
     Json json = runJson(*run, session, **renderer);
     if (is_sequence) {
-      for (const char* of_one : {"time_ns", "frame_ms", "points", "layers"}) {
+      for (const char* of_one : {"time_ns", "frame_ms", "points", "layers", "measurements"}) {
         json.erase(of_one);
       }
       json["pictures"] = std::move(pictures);
@@ -315,7 +343,11 @@ Command addRenderCommand(CLI::App& app) {
          "--channels", options->channels,
          "normals,id: of an .exr, besides R, G, B, A and Z: N.X, N.Y, N.Z in the fixed frame; the layer's number")
       ->type_name("NAMES");
-  app.add_flag("--legend", options->has_legend, "What the colours of values mean, in the picture's corner (.png)");
+  CLI::Option* const legend =
+      app.add_flag("--legend", options->has_legend,
+                   "What the colours of values mean, in the picture's corner (.png); default: as --layout says");
+  app.add_flag("--no-legend", options->has_no_legend, "Without it, whatever --layout says")->excludes(legend);
+  app.add_flag("--no-picks", options->has_no_picks, "Without what --layout keeps as picked and measured");
   app.add_flag("--json", options->is_json, "One JSON object on what was drawn; of several pictures, on each of them");
   return [options] { return runRender(*options); };
 }

@@ -11,6 +11,7 @@
 #include "scenegraph/near_names.h"
 #include "scenegraph/osg_box.h"
 #include "scenegraph/passes/view_effects.h"
+#include "scenegraph/pick/place_picks.h"
 
 namespace stillframe::cli {
 
@@ -140,7 +141,18 @@ Result<void> SceneSession::chooseFrame() {
     }
   }
   updateFully();
+  notePicks();
   return {};
+}
+
+/// What the layout keeps as picked, and this recording has no place for.
+void SceneSession::notePicks() {
+  for (const std::string& frame :
+       options_.layout ? scenegraph::framesOf(options_.layout->picks) : std::vector<std::string>()) {
+    if (!scene_->frames().fixedFromFrame(frame)) {
+      layout_notes_.push_back("what is picked in frame '" + frame + "' has no place in '" + scene_->fixedFrame() + "'");
+    }
+  }
 }
 
 void SceneSession::showTime(tf::TimePoint time) {

@@ -43,6 +43,7 @@ class SceneSession {
   Result<void> addLayers();
   Result<void> chooseFrame();
   Result<void> applyLayers();
+  void notePicks();
   Result<void> placeCamera();
   [[nodiscard]] scenegraph::Follow::Pose followedPose() const;
   void updateFully();

@@ -32,7 +32,7 @@ struct ViewCommandOptions {
   std::vector<std::string> files;
   RecordingOptions recording;  // its clock and switch; the files are above
   int views = 1;
-  std::string time = "start";
+  std::string time;
   std::string fixed_frame;
   std::vector<std::string> layers;
   bool only_named_layers = false;
@@ -86,7 +86,7 @@ viewer::RecordingOpener makeOpener(const RecordingOptions& options) {
 }
 
 Result<void> runView(const ViewCommandOptions& options) {
-  if (const auto time = parseTime(options.time); !time) {
+  if (const auto time = parseTime(options.time.empty() ? "start" : options.time); !time) {
     return std::unexpected(time.error());
   }
   viewer::InspectorOptions inspector;
@@ -151,7 +151,9 @@ Result<void> runView(const ViewCommandOptions& options) {
   }
   inspector.reports_stalls = options.reports_stalls;
   inspector.layers.only = options.only_named_layers;
-  inspector.time = options.time;
+  if (!options.time.empty()) {
+    inspector.time = options.time;
+  }
   inspector.views = options.views;
   if (!options.fixed_frame.empty()) {
     inspector.fixed_frame = options.fixed_frame;
@@ -186,7 +188,9 @@ Command addViewCommand(CLI::App& app) {
   CLI::Option* const views = app.add_option("--views", options->views, "Views side by side")
                                  ->check(CLI::Range(1, kMostViews))
                                  ->capture_default_str();
-  app.add_option("--time", options->time, "Nanoseconds, +SECONDS from the start, start, or end")->capture_default_str();
+  app.add_option(
+      "--time", options->time,
+      "Nanoseconds, +SECONDS from the start, start, or end; default: the first moment with something to see");
   app.add_option("--fixed-frame", options->fixed_frame, "Frame that stands still; default: map, world, odom, ...");
   app.add_option("--camera", options->camera, "orbit, xyorbit, topdown (from above, without perspective) or fly")
       ->type_name("MODEL");

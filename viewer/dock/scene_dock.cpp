@@ -43,11 +43,8 @@ SceneDock::SceneDock(DockContext& context, QWidget* parent) : QWidget(parent), c
   });
   connect(panel_, &ViewPanel::refused, this,
           [this](const QString& message) { messages_->showMessage(scenegraph::StatusLevel::Warn, message); });
-  connect(&panel_->view().picks(), &ViewPicks::changed, this, [this] {
-    if (const auto& selected = panel_->view().picks().selected()) {
-      Q_EMIT picked(*selected);
-    }
-  });
+  connect(&panel_->view().picks(), &ViewPicks::picked, this,
+          [this] { Q_EMIT picked(*panel_->view().picks().selected()); });
   const auto bind = [this](Qt::Key key, auto action) {
     connect(new QShortcut(key, &panel_->view(), nullptr, nullptr, Qt::WidgetShortcut), &QShortcut::activated, this,
             action);

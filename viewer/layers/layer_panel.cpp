@@ -26,9 +26,9 @@ LayerPanel::LayerPanel(QWidget* parent)
   add->setMenu(add_menu_);
   duplicate_ = addButton("duplicateLayer", tr("Duplicate"), tr("A second layer like the selected one (Ctrl+D)"));
   remove_ = addButton("removeLayer", tr("Remove"), tr("Remove the selected layer (Delete)"));
-  QToolButton* const measure =
-      addButton("measureLayers", tr("Measure"), tr("Measure how long each layer takes to draw"));
-  connect(measure, &QToolButton::clicked, this, &LayerPanel::measureRequested);
+  QToolButton* const times = addButton("drawTimes", tr("Draw times"),
+                                       tr("Take the time that each layer needs to be drawn; their rows show it"));
+  connect(times, &QToolButton::clicked, this, &LayerPanel::drawTimesRequested);
   buttons->addStretch(1);
   up_ = addButton("moveLayerUp", {}, tr("Move the selected layer up (Ctrl+Up)"));
   up_->setArrowType(Qt::UpArrow);

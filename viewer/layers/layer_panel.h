@@ -31,7 +31,7 @@ class LayerPanel : public QWidget {
   void changed(const QString& what, const QString& gesture);
   void refused(const QString& message);
   /// Somebody wants to know what each layer takes to draw: LayerTree::setDrawTimes().
-  void measureRequested();
+  void drawTimesRequested();
 
  private:
   QToolButton* addButton(const char* name, const QString& text, const QString& tip);

@@ -124,15 +124,16 @@ void LayerTree::refresh() {
       row.item->setText(0, name);
     }
     showStatus(row);
-    row.settings->show(row.layer->settingSpecs(), row.layer->settings());
     if (row.item->isExpanded()) {
       showDetails(row, *layers[i]);
     }
   }
 }
 
-/// What is worth its price only while somebody looks: the cost, and the values behind the range.
+/// What is worth its price only while somebody looks: the settings, whose widgets are many, the cost, and the values
+/// behind the range.
 void LayerTree::showDetails(const Row& row, const scenegraph::LayerSlot& slot) {
+  showSettings(row);
   scenegraph::LayerCost cost = scenegraph::layerCost(slot);
   if (draw_times_.size() == rows_.size() && measured_revision_ == scene_->settingsRevision()) {
     cost.draw_ms = draw_times_[static_cast<std::size_t>(indexOfTopLevelItem(row.item))];
@@ -153,6 +154,8 @@ void LayerTree::showDetails(const Row& row, const scenegraph::LayerSlot& slot) {
   }
 }
 
+void LayerTree::showSettings(const Row& row) { row.settings->show(row.layer->settingSpecs(), row.layer->settings()); }
+
 void LayerTree::setDrawTimes(std::vector<std::optional<double>> times) {
   draw_times_ = std::move(times);
   measured_revision_ = scene_ == nullptr ? 0 : scene_->settingsRevision();
@@ -171,7 +174,6 @@ void LayerTree::rebuild() {
   clearRows();
   for (const auto& slot : scene_->layers()) {
     rows_.push_back(addRow(*slot));
-    rows_.back().settings->show(slot->layer->settingSpecs(), slot->layer->settings());
     rows_.back().item->setExpanded(open.contains(slot->id));
   }
   selectLayer(current);
@@ -193,7 +195,7 @@ LayerTree::Row LayerTree::addRow(const scenegraph::LayerSlot& slot) {
   row.cost->setFlags(Qt::ItemIsEnabled);
   row.cost->setFirstColumnSpanned(true);
   row.cost->setData(0, LayerDelegate::kIsNote, true);
-  row.cost->setToolTip(0, tr("What the layer costs; Measure above takes the time to draw it, too"));
+  row.cost->setToolTip(0, tr("What the layer costs; Draw times above takes the time to draw it, too"));
   row.settings = new SettingRows(*this, *row.item);
   row.histograms = new HistogramFeed(row.settings);
   connect(row.histograms, &HistogramFeed::counted, row.settings,
@@ -246,7 +248,11 @@ QTreeWidgetItem* LayerTree::item(const std::string& id) const {
 
 SettingRows* LayerTree::settingRows(const std::string& id) const {
   const Row* const row = findRow(id);
-  return row == nullptr ? nullptr : row->settings;
+  if (row == nullptr) {
+    return nullptr;
+  }
+  showSettings(*row);
+  return row->settings;
 }
 
 std::string LayerTree::currentLayer() const {

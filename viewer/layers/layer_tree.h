@@ -33,6 +33,7 @@ class LayerTree : public QTreeWidget {
   [[nodiscard]] std::string currentLayer() const;
   void selectLayer(const std::string& id);
   [[nodiscard]] QTreeWidgetItem* item(const std::string& id) const;
+  /// The rows of its settings, up to date; they are made when the row is opened, or here. nullptr for no such layer.
   [[nodiscard]] SettingRows* settingRows(const std::string& id) const;
   /// What each layer took to draw by itself, in the layers' order, for their rows to show; until the next change.
   void setDrawTimes(std::vector<std::optional<double>> times);
@@ -78,6 +79,7 @@ class LayerTree : public QTreeWidget {
   Row addRow(const scenegraph::LayerSlot& slot);
   void showStatus(const Row& row);
   void showDetails(const Row& row, const scenegraph::LayerSlot& slot);
+  static void showSettings(const Row& row);
   void onItemChanged(QTreeWidgetItem* item);
   void takeRow(const Row& row);
   void apply(const std::string& id, const scenegraph::SettingTexts& texts, const QString& label);

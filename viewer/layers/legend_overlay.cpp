@@ -52,7 +52,7 @@ void LegendOverlay::draw() {
   setPixmap(pixmap);
   resize(pixmap.deviceIndependentSize().toSize());
   move(view.width() - width() - kMargin, view.height() - height() - kMargin);
-  raise();
+  lower();  // beneath what is measured
 }
 
 bool LegendOverlay::eventFilter(QObject* watched, QEvent* event) {

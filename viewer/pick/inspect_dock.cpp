@@ -1,6 +1,7 @@
 #include "viewer/pick/inspect_dock.h"
 
 #include <QMainWindow>
+#include <utility>
 
 #include "viewer/pick/inspect_panel.h"
 #include "viewer/pick/view_picks.h"
@@ -16,11 +17,14 @@ InspectDock::InspectDock(QMainWindow& window) : QDockWidget(tr("Inspect"), &wind
 }
 
 void InspectDock::watch(SceneWidget& view) {
-  connect(&view.picks(), &ViewPicks::changed, this, [this, &view] {
-    if (view.picks().selected()) {
-      setView(view);
+  connect(&view.picks(), &ViewPicks::picked, this, [this, &view] {
+    setView(view);
+    if (!std::exchange(has_been_shown_, true) && isHidden()) {
       show();
+      auto& window = *qobject_cast<QMainWindow*>(parentWidget());
+      window.resizeDocks({this}, {window.height() / 2}, Qt::Vertical);
     }
+    show();
   });
 }
 

@@ -23,6 +23,7 @@ class InspectDock : public QDockWidget {
   [[nodiscard]] InspectPanel& panel() noexcept { return *panel_; }
 
  private:
+  bool has_been_shown_ = false;  // the first time it takes its share of the room
   InspectPanel* panel_ = nullptr;
 };
 

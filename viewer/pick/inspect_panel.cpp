@@ -110,13 +110,14 @@ void InspectPanel::refreshMeasurements() {
   const scenegraph::Scene* const scene = view_ != nullptr ? view_->scene() : nullptr;
   int count = 0;
   if (scene != nullptr) {
-    for (const ViewPicks::Pair& pair : view_->picks().measured()) {
-      const auto length = ViewPicks::lengthOf(*scene, pair);
+    for (const scenegraph::PickMarks::Pair& pair : view_->picks().measured()) {
+      const auto length = scenegraph::measureNow(*scene, pair);
       const auto nameOf = [](const scenegraph::PickResult& end) {
         return QString::fromStdString(end.topic + " " + end.picked.kind + " " + end.picked.id);
       };
       setRow(*measurements_, count++,
-             {length ? ViewPicks::text(*length) : tr("no place now"), nameOf(pair.first), nameOf(pair.second)});
+             {length ? QString::fromStdString(scenegraph::measurementText(*length)) : tr("no place now"),
+              nameOf(pair.first), nameOf(pair.second)});
     }
   }
   dropRowsFrom(*measurements_, count);

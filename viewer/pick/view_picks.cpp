@@ -1,7 +1,7 @@
 #include "viewer/pick/view_picks.h"
 
 #include <QPainter>
-#include <cmath>
+#include <utility>
 
 namespace stillframe::viewer {
 namespace {
@@ -10,7 +10,7 @@ constexpr double kRingRadius = 7.0;
 constexpr QColor kColor(255, 214, 64);
 constexpr QColor kShadow(0, 0, 0, 170);
 
-QString number(double metres) { return QString::number(metres, 'g', 6); }
+QPointF pointOf(const glm::dvec2& at_px) { return {at_px.x, at_px.y}; }
 
 }  // namespace
 
@@ -21,73 +21,45 @@ ViewPicks::ViewPicks(QWidget* parent) : QWidget(parent) {
 }
 
 void ViewPicks::select(std::optional<scenegraph::PickResult> picked) {
-  selected_ = std::move(picked);
-  onChanged();
+  marks_.selected = std::move(picked);
+  Q_EMIT changed();
+  if (marks_.selected) {
+    Q_EMIT this->picked();
+  }
 }
 
 void ViewPicks::measureTo(scenegraph::PickResult end) {
-  if (selected_) {
-    measured_.emplace_back(*selected_, end);
+  if (marks_.selected) {
+    marks_.measured.emplace_back(*marks_.selected, end);
   }
-  selected_ = std::move(end);
-  onChanged();
+  select(std::move(end));
 }
 
 void ViewPicks::removeMeasurement(std::size_t index) {
-  if (index < measured_.size()) {
-    measured_.erase(measured_.begin() + static_cast<std::ptrdiff_t>(index));
-    onChanged();
+  if (index < marks_.measured.size()) {
+    marks_.measured.erase(marks_.measured.begin() + static_cast<std::ptrdiff_t>(index));
+    Q_EMIT changed();
   }
 }
 
-void ViewPicks::clear() {
-  if (selected_ || !measured_.empty()) {
-    selected_.reset();
-    measured_.clear();
-    onChanged();
+void ViewPicks::clear() { restore({}); }
+
+void ViewPicks::restore(scenegraph::PickMarks marks) {
+  if (marks != marks_) {
+    marks_ = std::move(marks);
+    Q_EMIT changed();
   }
-}
-
-void ViewPicks::onChanged() { Q_EMIT changed(); }
-
-std::optional<scenegraph::Measurement> ViewPicks::lengthOf(const scenegraph::Scene& scene, const Pair& pair) {
-  const auto from = scenegraph::pointInFixedNow(scene, pair.first);
-  const auto to = scenegraph::pointInFixedNow(scene, pair.second);
-  return from && to ? std::optional(scenegraph::measure(*from, *to)) : std::nullopt;
-}
-
-QString ViewPicks::text(const scenegraph::Measurement& measurement) {
-  const glm::dvec3& delta = measurement.delta_in_fixed;
-  return tr("%1 m  (dx %2, dy %3, dz %4)")
-      .arg(number(measurement.length_m), number(delta.x), number(delta.y), number(delta.z));
 }
 
 void ViewPicks::place(const scenegraph::Scene& scene, const scenegraph::CameraView& view) {
   const scenegraph::PictureSize size{static_cast<double>(parentWidget()->width()),
                                      static_cast<double>(parentWidget()->height())};
-  std::optional<QPointF> ring;
-  const auto selected = selected_ ? scenegraph::pointInFixedNow(scene, *selected_) : std::nullopt;
-  if (const auto at = selected ? scenegraph::toScreen(view, size, *selected) : std::nullopt) {
-    ring = QPointF(at->position_px.x, at->position_px.y);
-  }
-  std::vector<QLineF> lines;
-  std::vector<QString> texts;
-  for (const Pair& pair : measured_) {
-    const auto from = scenegraph::pointInFixedNow(scene, pair.first);
-    const auto to = scenegraph::pointInFixedNow(scene, pair.second);
-    if (const auto seen = from && to ? scenegraph::toScreen(view, size, *from, *to) : std::nullopt) {
-      lines.emplace_back(seen->first.x, seen->first.y, seen->second.x, seen->second.y);
-      texts.push_back(text(scenegraph::measure(*from, *to)));
-    }
-  }
-  if (ring != ring_ || lines != lines_ || texts != texts_) {
-    ring_ = ring;
-    lines_ = std::move(lines);
-    texts_ = std::move(texts);
+  if (auto placed = scenegraph::placePicks(scene, view, size, marks_); placed != placed_) {
+    placed_ = std::move(placed);
     update();
   }
   setGeometry(parentWidget()->rect());
-  setVisible(ring_ || !lines_.empty());
+  setVisible(!placed_.isEmpty());
 }
 
 void ViewPicks::paintEvent(QPaintEvent* /*event*/) {
@@ -95,20 +67,20 @@ void ViewPicks::paintEvent(QPaintEvent* /*event*/) {
   painter.setRenderHint(QPainter::Antialiasing);
   for (const auto& [color, width] : {std::pair(kShadow, 4.0), std::pair(kColor, 1.6)}) {
     painter.setPen(QPen(color, width));
-    if (ring_) {
-      painter.drawEllipse(*ring_, kRingRadius, kRingRadius);
+    if (placed_.ring_px) {
+      painter.drawEllipse(pointOf(*placed_.ring_px), kRingRadius, kRingRadius);
     }
-    for (const QLineF& line : lines_) {
-      painter.drawLine(line);
+    for (const auto& line : placed_.lines) {
+      painter.drawLine(pointOf(line.from_px), pointOf(line.to_px));
     }
   }
-  for (std::size_t i = 0; i < lines_.size(); ++i) {
-    const QPointF middle = lines_[i].center();
-    QRectF box = painter.fontMetrics().boundingRect(texts_[i]).adjusted(-5, -3, 5, 3);
-    box.moveCenter(middle - QPointF(0.0, box.height()));
+  for (const auto& line : placed_.lines) {
+    const QString text = QString::fromStdString(line.text);
+    QRectF box = painter.fontMetrics().boundingRect(text).adjusted(-5, -3, 5, 3);
+    box.moveCenter(pointOf((line.from_px + line.to_px) / 2.0) - QPointF(0.0, box.height()));
     painter.fillRect(box, QColor(20, 22, 26, 200));
     painter.setPen(kColor);
-    painter.drawText(box, Qt::AlignCenter, texts_[i]);
+    painter.drawText(box, Qt::AlignCenter, text);
   }
 }
 

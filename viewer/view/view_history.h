@@ -22,6 +22,7 @@ struct ViewSettings {
   scenegraph::FollowMode follow = scenegraph::FollowMode::Off;
   scenegraph::CameraKind camera = scenegraph::CameraKind::Orbit;
   scenegraph::SettingTexts effects;
+  bool shows_legend = true;
 
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };

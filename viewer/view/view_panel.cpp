@@ -23,6 +23,7 @@ namespace stillframe::viewer {
 namespace {
 
 constexpr int kLayerPanelWidth = 270;
+constexpr int kLeastPickerWidth = 60;
 
 }  // namespace
 
@@ -43,11 +44,17 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   effects_button_ = addButton(*bar, QStringLiteral("effects"), transportIcon(TransportIcon::Effects),
                               tr("Effects: shading, tone mapping, anti-aliasing"));
   effects_button_->setCheckable(true);
+  legend_button_ = addButton(*bar, QStringLiteral("legendButton"), transportIcon(TransportIcon::Legend),
+                             tr("Legend: what the colours of values mean"));
+  legend_button_->setCheckable(true);
+  legend_button_->setChecked(true);
   auto* label = new QLabel(tr("Fixed frame"), bar);
   bar_layout->addSpacing(4);
   bar_layout->addWidget(label);
+  label->setMinimumWidth(1);  // where views stand side by side, they shrink before the window has to grow
   picker_ = new FramePicker(tr("Fixed frame"), tr("the frame that stands still"), bar);
   picker_->setObjectName(QStringLiteral("fixedFrame"));
+  picker_->setMinimumWidth(kLeastPickerWidth);
   bar_layout->addWidget(picker_);
   auto* place_of_camera_bar = new QHBoxLayout;
   bar_layout->addLayout(place_of_camera_bar, 1);
@@ -86,6 +93,7 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   };
   connect(layers_button_, &QToolButton::toggled, this, show_panels);
   connect(effects_button_, &QToolButton::toggled, this, show_panels);
+  connect(legend_button_, &QToolButton::toggled, this, &ViewPanel::setLegendShown);
   connect(effects_, &EffectPanel::changed, view_, [this] { view_->setEffects(effects_->effects()); });
   connect(effects_, &EffectPanel::refused, this, &ViewPanel::refused);
   connect(recenter, &QToolButton::clicked, view_, &SceneWidget::home);
@@ -102,7 +110,7 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
     legend_->refresh(view_->scene());
     refreshFrames();
   });
-  connect(layers_, &LayerPanel::measureRequested, this,
+  connect(layers_, &LayerPanel::drawTimesRequested, this,
           [this] { layers_->tree().setDrawTimes(view_->measureDrawTimes()); });
   connectHistory();
 }

@@ -54,6 +54,8 @@ class ViewPanel : public QWidget {
   void setHiddenFrames(const FrameNames& hidden);
 
   void setEffects(const scenegraph::ViewEffects& effects);
+  /// Whether the colours' legends lie over the picture, of the layers that have theirs on.
+  void setLegendShown(bool shown);
   /// Whether there are a grip, and buttons to split, detach and close the view; not where the host arranges it. On at
   /// first.
   void setArrangeable(bool arrangeable);
@@ -106,6 +108,7 @@ class ViewPanel : public QWidget {
   QSplitter* splitter_ = nullptr;
   QToolButton* layers_button_ = nullptr;
   QToolButton* effects_button_ = nullptr;
+  QToolButton* legend_button_ = nullptr;
   std::vector<QWidget*> arranging_;  // grip and buttons
   FrameMemory* memory_ = nullptr;
   LayerChoices choices_;

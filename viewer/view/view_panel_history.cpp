@@ -2,6 +2,7 @@
 #include <QComboBox>
 #include <QKeySequence>
 #include <QShortcut>
+#include <QToolButton>
 #include <cstdint>
 
 #include "scenegraph/layer_list.h"
@@ -22,6 +23,7 @@ void ViewPanel::connectHistory() {
   connect(layers_, &LayerPanel::changed, history_, &ViewHistory::note);
   connect(effects_, &EffectPanel::changed, history_,
           [this] { history_->note(tr("effects"), QStringLiteral("effects")); });
+  connect(legend_button_, &QToolButton::clicked, history_, [this] { history_->note(tr("legend")); });
   connect(picker_, &FramePicker::picked, history_, [this] { history_->note(tr("fixed frame")); });
   connect(view_, &SceneWidget::cameraChanged, history_, [this] {
     // Told of every move; a move is no step.
@@ -52,6 +54,7 @@ void ViewPanel::connectHistory() {
 ViewSettings ViewPanel::settings() const {
   ViewSettings settings;
   settings.effects = view_->effects().toTexts();
+  settings.shows_legend = legend_button_->isChecked();
   settings.display_frame = view_->camera().displayFrame();
   settings.follow = view_->camera().follow().mode();
   settings.camera = view_->camera().rig().kind();
@@ -69,6 +72,9 @@ void ViewPanel::changeSettings(const ViewSettings& from, const ViewSettings& to)
     scenegraph::ViewEffects effects;
     (void)effects.fromTexts(to.effects);  // taken from effects
     setEffects(effects);
+  }
+  if (from.shows_legend != to.shows_legend) {
+    setLegendShown(to.shows_legend);
   }
   scenegraph::Scene* const scene = view_->scene();
   if (scene == nullptr) {

@@ -5,6 +5,8 @@
 
 #include "scenegraph/layer_list.h"
 #include "viewer/layers/layer_panel.h"
+#include "viewer/layers/legend_overlay.h"
+#include "viewer/pick/view_picks.h"
 #include "viewer/view/effect_panel.h"
 #include "viewer/view/view_history.h"
 #include "viewer/view/view_panel.h"
@@ -24,6 +26,7 @@ ViewLayout ViewPanel::layout() const {
   layout.source = restored_.source;
   layout.shows_layers = layers_button_->isChecked();
   layout.shows_effects = effects_button_->isChecked();
+  layout.shows_legend = legend_button_->isChecked();
   layout.effects = view_->effects().toTexts();
   layout.has_smooth_moves = view_->hasSmoothMoves();
   layout.saved_views = view_->savedViews();
@@ -39,6 +42,7 @@ ViewLayout ViewPanel::layout() const {
   layout.viewpoint = view_->camera().state();
   layout.is_camera_touched = view_->isCameraTouched();
   layout.layers = scenegraph::layerList(*scene, waiting_);
+  layout.picks = view_->picks().marks();
   return layout;
 }
 
@@ -51,6 +55,7 @@ void ViewPanel::restore(const ViewLayout& layout) {
   restored_ = layout;
   layers_button_->setChecked(layout.shows_layers);
   effects_button_->setChecked(layout.shows_effects);
+  setLegendShown(layout.shows_legend);
   refused_lines_.clear();
   scenegraph::ViewEffects effects;
   for (const scenegraph::SettingError& error : effects.fromTexts(layout.effects)) {
@@ -79,9 +84,16 @@ void ViewPanel::restoreInto(scenegraph::Scene& scene) {
     view_->setViewpoint(restored_.viewpoint);
     view_->resetView();
   }
+  view_->picks().restore(restored_.picks);
   layers_->refresh();
   refreshFrames();
   view_->requestTick();
+}
+
+void ViewPanel::setLegendShown(bool shown) {
+  legend_button_->setChecked(shown);
+  legend_->setEnabledByUser(shown);
+  legend_->refresh(view_->scene());
 }
 
 /// Those that wait for a topic; settings that were refused once are not tried again.
@@ -137,6 +149,11 @@ std::vector<std::string> ViewPanel::notRestored() const {
   };
   check(restored_.fixed_frame, "fixed frame");
   check(restored_.viewpoint.display_frame, "display frame");
+  for (const std::string& frame : scenegraph::framesOf(view_->picks().marks())) {
+    if (view_->time() == scene->frames().time() && !scene->frames().fixedFromFrame(frame)) {
+      lines.push_back("what is picked in frame '" + frame + "' has no place in '" + scene->fixedFrame() + "' now");
+    }
+  }
   return lines;
 }
 

@@ -1,7 +1,10 @@
 // Pictures of what SceneWidget shows, for files.
 #include <algorithm>
 
+#include "nodes/legend/picture_overlay.h"
+#include "scenegraph/pick/place_picks.h"
 #include "scenegraph/pipeline/gl_context_info.h"
+#include "viewer/pick/view_picks.h"
 #include "viewer/widget/picture_request.h"
 #include "viewer/widget/scene_widget.h"
 
@@ -29,14 +32,27 @@ std::expected<scenegraph::Picture, scenegraph::Status> SceneWidget::takePicture(
       return std::unexpected(checked.error());
     }
     const scenegraph::CameraView view = shownView();
+    // Points, lines and names as large against the picture as they are against the view.
+    const scenegraph::PictureSize size{static_cast<double>(request.width_px), static_cast<double>(request.height_px),
+                                       static_cast<double>(request.height_px) / std::max(1, height())};
     if (scene_ != nullptr) {
-      // Points, lines and names as large against the picture as they are against the view.
-      scene_->setView(view, {static_cast<double>(request.width_px), static_cast<double>(request.height_px),
-                             static_cast<double>(request.height_px) / std::max(1, height())});
+      scene_->setView(view, size);
     }
     pipeline_->setView(view);
-    const auto drawn = scenegraph::drawPicture(*pipeline_, options);
-    return drawn ? scenegraph::readPicture(*pipeline_, options) : std::unexpected(drawn.error());
+    if (const auto drawn = scenegraph::drawPicture(*pipeline_, options); !drawn) {
+      return std::unexpected(drawn.error());
+    }
+    auto read = scenegraph::readPicture(*pipeline_, options);
+    if (read && scene_ != nullptr && !request.is_scene_linear) {
+      nodes::PictureOverlay overlay(read->rgba, read->width, read->height, size.pixel_ratio);
+      if (request.has_picks) {
+        overlay.addPicks(scenegraph::placePicks(*scene_, view, size, picks().marks()));
+      }
+      if (request.has_legend) {
+        overlay.addLegends(nodes::legendEntries(*scene_));
+      }
+    }
+    return read;
   }();
   pipeline_->setPostChain(effects_.chain());
   doneCurrent();

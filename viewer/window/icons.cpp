@@ -102,6 +102,14 @@ void draw(QPainter& painter, const QPen& pen, TransportIcon icon) {
       painter.setBrush(pen.color());
       painter.drawPie(QRectF(9, 9, 30, 30), 90 * 16, 180 * 16);
       return;
+    case TransportIcon::Legend:
+      painter.drawRect(QRectF(8, 12, 16, 12));
+      outline();
+      painter.drawRect(QRectF(8, 12, 32, 12));
+      for (const qreal x : {8.0, 24.0, 40.0}) {
+        painter.drawLine(QPointF(x, 31), QPointF(x, 36));
+      }
+      return;
   }
 }
 

@@ -19,7 +19,8 @@ enum class TransportIcon {
   Grip,
   Close,
   Layers,
-  Effects
+  Effects,
+  Legend
 };
 
 [[nodiscard]] QIcon transportIcon(TransportIcon icon);

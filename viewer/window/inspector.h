@@ -19,9 +19,9 @@ namespace stillframe::viewer {
 
 /// How an inspector starts.
 struct InspectorOptions {
-  std::vector<std::filesystem::path> files = {};      ///< opened at once; none: an empty window that waits for a drop
-  std::optional<std::string> time = {};               ///< integer ns, "+SECONDS", "start" or "end"; absent: start
-  std::optional<std::string> fixed_frame = {};        ///< absent: chosen automatically
+  std::vector<std::filesystem::path> files = {};  ///< opened at once; none: an empty window that waits for a drop
+  std::optional<std::string> time = {};           ///< integer ns, "+SECONDS", "start" or "end"; absent: openingTime()
+  std::optional<std::string> fixed_frame = {};    ///< absent: chosen automatically
   std::optional<scenegraph::CameraKind> camera = {};  ///< absent: that of the layout, else orbit
   std::optional<std::string> display_frame = {};      ///< absent: the fixed frame
   scenegraph::FollowMode follow = scenegraph::FollowMode::Off;

@@ -18,6 +18,7 @@
 
 #include "viewer/frames/frame_tree.h"
 #include "viewer/pick/inspect_dock.h"
+#include "viewer/time/opening_time.h"
 #include "viewer/time/time_bar.h"
 #include "viewer/view/view_history.h"
 #include "viewer/widget/scene_widget.h"
@@ -166,7 +167,7 @@ void InspectorWindow::buildMenus() {
     }
   });
   auto* saver = new PictureSaver(*executor_, this);
-  addPictureActions(*file, *this, *saver, [this]() -> SceneWidget& { return activeView().view(); });
+  addPictureActions(*file, *this, *saver, [this]() -> ViewPanel& { return activeView(); });
   connect(saver, &PictureSaver::failed, messages_, &MessageBar::warn);
   buildLayoutMenu(*file);
   QAction* quit = file->addAction(tr("&Quit"));
@@ -294,7 +295,7 @@ void InspectorWindow::takeRange() {
       messages_->warn(tr("\"%1\" is not a time: write nanoseconds, +SECONDS, start or end")
                           .arg(QString::fromStdString(*options_.time)));
     }
-    time_bar_->setTime(wanted.value_or(times.first));
+    time_bar_->setTime(wanted.value_or(options_.time ? times.first : openingTime(dataset_->store(), times)));
     is_time_untouched_ = true;
   }
 }
@@ -313,6 +314,10 @@ void InspectorWindow::onLoaded() {
   progress_->hide();
   statusBar()->clearMessage();
   onProgress(1.0);
+  if (is_time_untouched_ && !options_.time && time_bar_->time() > time_bar_->range().first) {
+    statusBar()->showMessage(tr("Opened at %1 s, when the first messages of its topics are there")
+                                 .arg(secondsText(time_bar_->time(), time_bar_->range(), 3)));
+  }
   for (ViewPanel* panel : views()) {
     panel->homeUnlessTouched();
   }

@@ -4,8 +4,10 @@
 #include <QMenu>
 #include <QSaveFile>
 
+#include "viewer/widget/scene_widget.h"
 #include "viewer/window/inspector_window.h"
 #include "viewer/window/message_bar.h"
+#include "viewer/window/window_place.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -54,8 +56,7 @@ void InspectorWindow::buildLayoutMenu(QMenu& file) {
 scenegraph::Layout InspectorWindow::layout() const {
   scenegraph::Layout layout = views_->layout();
   scenegraph::WindowLayout& main = layout.windows.front();
-  main.width = width();
-  main.height = height();
+  takePlace(*this, main);
   main.docks = saveState().toBase64().toStdString();
   return layout;
 }
@@ -63,10 +64,11 @@ scenegraph::Layout InspectorWindow::layout() const {
 void InspectorWindow::restore(const scenegraph::Layout& layout) {
   const scenegraph::WindowLayout& main = layout.windows.front();
   if (!main.docks.empty()) {  // else it is one of a host, or written by hand
-    resize(main.width, main.height);
+    bringToPlace(main, *this);
     restoreState(QByteArray::fromBase64(QByteArray::fromStdString(main.docks)));
   }
   views_->arrange(layout);
+  activeView().view().setFocus();
   if (!is_loading_) {
     tellNotRestored();
   }

@@ -7,6 +7,7 @@
 #include <QFormLayout>
 #include <QMainWindow>
 #include <QMenu>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QStatusBar>
@@ -14,6 +15,9 @@
 #include <array>
 #include <utility>
 
+#include "viewer/layers/legend_overlay.h"
+#include "viewer/pick/view_picks.h"
+#include "viewer/view/view_panel.h"
 #include "viewer/widget/scene_widget.h"
 #include "viewer/window/picture_saver.h"
 
@@ -27,7 +31,8 @@ QString textOf(QSize size) { return QStringLiteral("%1 x %2").arg(size.width()).
 
 }  // namespace
 
-PictureDialog::PictureDialog(QSize shown_px, QWidget* parent) : QDialog(parent) {
+PictureDialog::PictureDialog(const PictureRequest& shown, QWidget* parent) : QDialog(parent) {
+  const QSize shown_px(shown.width_px, shown.height_px);
   setWindowTitle(tr("Picture of the view"));
   auto* form = new QFormLayout(this);
   auto* sizes = new QComboBox(this);
@@ -48,9 +53,16 @@ PictureDialog::PictureDialog(QSize shown_px, QWidget* parent) : QDialog(parent) 
   };
   width_ = add_side(tr("&Width"), QStringLiteral("width"));
   height_ = add_side(tr("&Height"), QStringLiteral("height"));
-  transparent_ = new QCheckBox(tr("&Transparent background"), this);
-  transparent_->setObjectName(QStringLiteral("transparent"));
-  form->addRow(transparent_);
+  const auto add_switch = [&](const QString& label, const char* name, bool is_on) {
+    auto* box = new QCheckBox(label, this);
+    box->setObjectName(QLatin1String(name));
+    box->setChecked(is_on);
+    form->addRow(box);
+    return box;
+  };
+  transparent_ = add_switch(tr("&Transparent background"), "transparent", shown.is_transparent);
+  legend_ = add_switch(tr("&Legend of the colours"), "withLegend", shown.has_legend);
+  picks_ = add_switch(tr("What is &picked and measured"), "withPicks", shown.has_picks);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Save | QDialogButtonBox::Cancel, this);
   buttons->button(QDialogButtonBox::Save)->setText(tr("&Save as..."));
   form->addRow(buttons);
@@ -66,11 +78,14 @@ PictureDialog::PictureDialog(QSize shown_px, QWidget* parent) : QDialog(parent) 
 }
 
 PictureRequest PictureDialog::request() const {
-  return {.width_px = width_->value(), .height_px = height_->value(), .is_transparent = transparent_->isChecked()};
+  return {.width_px = width_->value(),
+          .height_px = height_->value(),
+          .is_transparent = transparent_->isChecked(),
+          .has_legend = legend_->isChecked(),
+          .has_picks = picks_->isChecked()};
 }
 
-void addPictureActions(QMenu& menu, QMainWindow& window, PictureSaver& saver,
-                       std::function<SceneWidget&()> shown_view) {
+void addPictureActions(QMenu& menu, QMainWindow& window, PictureSaver& saver, std::function<ViewPanel&()> shown_view) {
   const auto ask_for_file = [&window](const QString& kinds) {
     QFileDialog dialog(&window, QObject::tr("Save picture"), {}, kinds);
     dialog.setAcceptMode(QFileDialog::AcceptSave);
@@ -81,8 +96,14 @@ void addPictureActions(QMenu& menu, QMainWindow& window, PictureSaver& saver,
   of_view->setObjectName(QStringLiteral("savePicture"));
   of_view->setShortcut(Qt::CTRL | Qt::SHIFT | Qt::Key_P);
   QObject::connect(of_view, &QAction::triggered, &window, [&window, &saver, shown_view, ask_for_file] {
-    SceneWidget& view = shown_view();
-    PictureDialog dialog(view.size() * view.devicePixelRatioF(), &window);
+    ViewPanel& panel = shown_view();
+    SceneWidget& view = panel.view();
+    const QSize size_px = view.size() * view.devicePixelRatioF();
+    PictureDialog dialog({.width_px = size_px.width(),
+                          .height_px = size_px.height(),
+                          .has_legend = panel.legend().isEnabledByUser(),
+                          .has_picks = !view.picks().marks().isEmpty()},
+                         &window);
     if (dialog.exec() != QDialog::Accepted) {
       return;
     }
@@ -101,10 +122,25 @@ void addPictureActions(QMenu& menu, QMainWindow& window, PictureSaver& saver,
     }
   });
   QStatusBar& bar = *window.statusBar();
-  QObject::connect(&saver, &PictureSaver::started, &bar,
-                   [&bar] { bar.showMessage(QObject::tr("Writing the picture")); });
-  QObject::connect(&saver, &PictureSaver::saved, &bar, [&bar](const QString& file, int width_px, int height_px) {
+  auto* const busy = new QProgressBar(&bar);
+  busy->setObjectName(QStringLiteral("pictureProgress"));
+  busy->setRange(0, 0);
+  busy->setMaximumSize(120, 14);
+  busy->hide();
+  bar.addPermanentWidget(busy);
+  const auto end = [&saver, busy] { busy->setVisible(saver.pending() > 0); };
+  QObject::connect(&saver, &PictureSaver::started, &bar, [&bar, busy](int width_px, int height_px) {
+    bar.showMessage(QObject::tr("Drawing the picture, %1 x %2 pixels").arg(width_px).arg(height_px));
+    busy->show();
+  });
+  QObject::connect(&saver, &PictureSaver::drawn, &bar, [&bar] { bar.showMessage(QObject::tr("Writing the picture")); });
+  QObject::connect(&saver, &PictureSaver::saved, &bar, [&bar, end](const QString& file, int width_px, int height_px) {
     bar.showMessage(QObject::tr("Saved %1, %2 x %3 pixels").arg(file).arg(width_px).arg(height_px));
+    end();
+  });
+  QObject::connect(&saver, &PictureSaver::failed, &bar, [&bar, end] {
+    bar.clearMessage();
+    end();
   });
 }
 

@@ -13,15 +13,15 @@ class QSpinBox;
 namespace stillframe::viewer {
 
 class PictureSaver;
-class SceneWidget;
+class ViewPanel;
 
-/// Asks how large a picture of a view is to be, and whether the background is to be left out. GUI thread.
+/// Asks how large a picture of a view is to be, and what of its background, legend and picks it has. GUI thread.
 class PictureDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// `shown_px` is the size of the view on the screen, which is offered first.
-  explicit PictureDialog(QSize shown_px, QWidget* parent = nullptr);
+  /// `shown` is what the view shows on the screen, which is offered first.
+  explicit PictureDialog(const PictureRequest& shown, QWidget* parent = nullptr);
 
   [[nodiscard]] PictureRequest request() const;
 
@@ -29,10 +29,12 @@ class PictureDialog : public QDialog {
   QSpinBox* width_ = nullptr;
   QSpinBox* height_ = nullptr;
   QCheckBox* transparent_ = nullptr;
+  QCheckBox* legend_ = nullptr;
+  QCheckBox* picks_ = nullptr;
 };
 
 /// Adds "Save picture of the view" and "... of the window" to `menu`: they ask, save through `saver`, and say in the
 /// window's status bar what has become of it. `shown_view` gives the view that is meant.
-void addPictureActions(QMenu& menu, QMainWindow& window, PictureSaver& saver, std::function<SceneWidget&()> shown_view);
+void addPictureActions(QMenu& menu, QMainWindow& window, PictureSaver& saver, std::function<ViewPanel&()> shown_view);
 
 }  // namespace stillframe::viewer

@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <QPixmap>
 #include <QPointer>
+#include <QTimer>
 #include <QWidget>
 #include <filesystem>
 #include <utility>
@@ -11,16 +12,39 @@
 #include "viewer/widget/scene_widget.h"
 
 namespace stillframe::viewer {
+namespace {
+
+constexpr int kTimeToSayMs = 30;  // for the window to paint what it says of the picture
+
+}  // namespace
 
 PictureSaver::PictureSaver(scenegraph::Executor& executor, QObject* parent) : QObject(parent), executor_(executor) {}
 
 void PictureSaver::saveView(SceneWidget& view, PictureRequest request, const QString& file) {
   request.is_scene_linear = file.endsWith(QStringLiteral(".exr"), Qt::CaseInsensitive);
+  ++pending_;
+  Q_EMIT started(request.width_px, request.height_px);
+  QTimer::singleShot(kTimeToSayMs, this, [this, shown = QPointer<SceneWidget>(&view), request, file] {
+    if (shown == nullptr) {
+      fail(tr("The view was closed before its picture was drawn"));
+    } else {
+      drawView(*shown, request, file);
+    }
+  });
+}
+
+void PictureSaver::fail(const QString& message) {
+  --pending_;
+  Q_EMIT failed(message);
+}
+
+void PictureSaver::drawView(SceneWidget& view, const PictureRequest& request, const QString& file) {
   auto picture = view.takePicture(request);
   if (!picture) {
-    Q_EMIT failed(QString::fromStdString(picture.error().message));
+    fail(QString::fromStdString(picture.error().message));
     return;
   }
+  Q_EMIT drawn();
   const auto shared = std::make_shared<const scenegraph::Picture>(std::move(*picture));
   write(
       [shared, path = std::filesystem::path(file.toStdString()), is_exr = request.is_scene_linear] {
@@ -30,6 +54,8 @@ void PictureSaver::saveView(SceneWidget& view, PictureRequest request, const QSt
 }
 
 void PictureSaver::saveWindow(QWidget& window, const QString& file) {
+  ++pending_;
+  Q_EMIT started(window.width(), window.height());
   const QImage image = window.grab().toImage().convertToFormat(QImage::Format_RGB888);
   scenegraph::BytePicture picture{.width = image.width(), .height = image.height(), .rgb = {}};
   for (int y = 0; y < image.height(); ++y) {
@@ -42,8 +68,6 @@ void PictureSaver::saveWindow(QWidget& window, const QString& file) {
 
 void PictureSaver::write(std::function<std::expected<void, scenegraph::Status>()> work, const QString& file, int width,
                          int height) {
-  ++pending_;
-  Q_EMIT started();
   // The answer comes back as an event of the application, which outlives the workers; we may be gone by then.
   executor_.submit([self = QPointer<PictureSaver>(this), work = std::move(work), file, width, height] {
     const auto result = work();
@@ -53,11 +77,11 @@ void PictureSaver::write(std::function<std::expected<void, scenegraph::Status>()
           if (self == nullptr) {
             return;
           }
-          --self->pending_;
           if (result) {
+            --self->pending_;
             Q_EMIT self->saved(file, width, height);
           } else {
-            Q_EMIT self->failed(QString::fromStdString(result.error().message));
+            self->fail(QString::fromStdString(result.error().message));
           }
         },
         Qt::QueuedConnection);

@@ -6,10 +6,12 @@
 #include <QMimeData>
 #include <QPointer>
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "viewer/view/view_panel.h"
 #include "viewer/window/view_window.h"
+#include "viewer/window/window_place.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -108,7 +110,7 @@ bool ViewSet::detach(ViewPanel& panel) {
   if (!takeOut(panel)) {
     return false;
   }
-  openWindow(kWindowWidth, kWindowHeight).area().insert(panel);
+  openWindow({.width = kWindowWidth, .height = kWindowHeight}).area().insert(panel);
   closeEmptyWindows();
   return true;
 }
@@ -122,10 +124,10 @@ bool ViewSet::move(ViewPanel& panel, ViewPanel& beside, Side side) {
   return true;
 }
 
-ViewWindow& ViewSet::openWindow(int width, int height) {
+ViewWindow& ViewSet::openWindow(const scenegraph::WindowLayout& place) {
   auto* window = new ViewWindow;
   windows_.push_back(window);
-  window->resize(width, height);
+  bringToPlace(place, *window);
   connect(&window->area(), &ViewArea::dropped, this,
           [this](const QByteArray& token, ViewPanel* beside, Side side) { onDropped(token, *beside, side); });
   connect(window, &ViewWindow::closed, this, [this, window] {
@@ -176,11 +178,16 @@ scenegraph::Layout ViewSet::layout() const {
   layout.windows.emplace_back().place = main_.place();
   for (ViewWindow* const window : windows_) {
     scenegraph::WindowLayout& of = layout.windows.emplace_back();
-    of.width = window->width();
-    of.height = window->height();
+    takePlace(*window, of);
     of.place = window->area().place();
     of.source = window->source;
   }
+  std::vector<ViewPanel*> in_order = main_.panels();
+  for (ViewWindow* const window : windows_) {
+    std::ranges::copy(window->area().panels(), std::back_inserter(in_order));
+  }
+  const auto active = std::ranges::find(in_order, active_);
+  layout.active_view = active == in_order.end() ? 1 : static_cast<int>(active - in_order.begin()) + 1;
   layout.windows.front().source = main_source_;
   layout.source = source_;
   return layout;
@@ -200,11 +207,14 @@ void ViewSet::arrange(const scenegraph::Layout& layout) {
       main_source_ = of.source;
       main_.arrange(of.place, make_restored);
     } else {
-      ViewWindow& window = openWindow(of.width, of.height);
+      ViewWindow& window = openWindow(of);
       window.source = of.source;
       window.area().arrange(of.place, make_restored);
     }
     is_main = false;
+  }
+  if (static_cast<std::size_t>(layout.active_view) <= views_.size()) {
+    active_ = views_[static_cast<std::size_t>(layout.active_view) - 1];
   }
   Q_EMIT activeChanged();
 }

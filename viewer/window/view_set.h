@@ -54,7 +54,7 @@ class ViewSet : public QObject {
   ViewPanel& make();
   [[nodiscard]] ViewArea& areaOf(const ViewPanel& panel) const;
   bool takeOut(ViewPanel& panel);
-  ViewWindow& openWindow(int width, int height);
+  ViewWindow& openWindow(const scenegraph::WindowLayout& place);
   void closeEmptyWindows();
   void drag(ViewPanel& panel);
   void activate(ViewPanel& panel);

@@ -34,6 +34,17 @@ std::string splitter(const std::string& attributes, const std::string& children)
          "</Splitter></Window></StillframeLayout>";
 }
 
+std::string nested(int depth) {
+  std::string text;
+  for (int i = 0; i < depth; ++i) {
+    text += "<a>";
+  }
+  for (int i = 0; i < depth; ++i) {
+    text += "</a>";
+  }
+  return text;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Values, HostileLayout,
     testing::Values(
@@ -51,6 +62,23 @@ INSTANTIATE_TEST_SUITE_P(
         HostileCase{"MaybeVisible", test::viewText("", "<Layer id=\"/p\" visible=\"maybe\"/>"), "BadLayout"},
         HostileCase{"LayerWithoutId", test::viewText("", "<Layer/>"), "BadLayout"},
         HostileCase{"LayerTwice", test::viewText("", "<Layer id=\"/p\"/><Layer id=\"/p\"/>"), "BadLayout"},
+        HostileCase{"PickWithoutFrame", test::viewText("", "<Picked x=\"1\"/>"), "BadLayout"},
+        HostileCase{"NanInPick", test::viewText("", "<Picked frame=\"a\" x=\"nan\"/>"), "BadLayout"},
+        HostileCase{"EndlessStamp", test::viewText("", "<Picked frame=\"a\" stamp_ns=\"9223372036854775808\"/>"),
+                    "BadLayout"},
+        HostileCase{"NegativeRadius", test::viewText("", "<Picked frame=\"a\" radius_m=\"-1\"/>"), "BadLayout"},
+        HostileCase{"PickedTwice", test::viewText("", "<Picked frame=\"a\"/><Picked frame=\"b\"/>"), "BadLayout"},
+        HostileCase{"MeasuredFromNowhere", test::viewText("", "<Measurement><To frame=\"a\"/></Measurement>"),
+                    "BadLayout"},
+        HostileCase{"MeasuredToNoFrame", test::viewText("", "<Measurement><From frame=\"a\"/><To/></Measurement>"),
+                    "BadLayout"},
+        HostileCase{"MaybeLegend", test::viewText("legend=\"maybe\""), "BadLayout"},
+        HostileCase{"TooDeepToBeSavedAgain", test::viewText("", nested(62)), "BadLayout"},
+        HostileCase{"WindowOnTheMoon",
+                    "<StillframeLayout version=\"1\"><Window x=\"384400000\" y=\"0\"/></StillframeLayout>",
+                    "BadLayout"},
+        HostileCase{"NoSuchViewActive", "<StillframeLayout version=\"1\" active_view=\"0\"/>", "BadLayout"},
+        HostileCase{"QuotedEndOfLine", test::viewText("camera_touched=\"a&#10;b\""), "BadLayout"},
         HostileCase{"LongQuote", test::viewText("camera_touched=\"" + std::string(100'000, 'x') + "\""), "BadLayout"},
         HostileCase{"NoViews", "<StillframeLayout version=\"1\"/>", "BadLayout"},
         HostileCase{"EmptyWindow", "<StillframeLayout version=\"1\"><Window/></StillframeLayout>", "BadLayout"},

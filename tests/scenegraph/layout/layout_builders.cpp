@@ -6,6 +6,20 @@ namespace stillframe::test {
 
 using namespace scenegraph;
 
+PickResult makePick(const std::string& frame, const glm::dvec3& point_in_frame) {
+  PickResult pick{
+      .topic = "/lidar/points", .layer = "Point cloud", .frame = frame, .picked = {}, .fixed_frame = "map", .time = {}};
+  pick.picked = {.kind = "point",
+                 .id = "17",
+                 .point_in_frame = point_in_frame,
+                 .stamp = tf::TimePoint{-9'223'372'036'854'775'807},
+                 .fields = {{"intensity", PickValue(std::string("0.1"))}, {"na\nme", PickValue(std::string("<&>"))}},
+                 .radius_m = 0.3};
+  pick.point_in_fixed = {-1e5 / 3.0, 2e-7, 1e12};
+  pick.time = tf::TimePoint{1'700'000'000'123'456'789};
+  return pick;
+}
+
 ViewLayout makeViewLayout() {
   ViewLayout layout;
   layout.dataset = "drive.mcap";
@@ -27,6 +41,10 @@ ViewLayout makeViewLayout() {
       {"/lidar/points#2", "", true, {}}};
   layout.shows_layers = false;
   layout.shows_effects = true;
+  layout.shows_legend = false;
+  layout.picks.selected = makePick("lidar", {1.0 / 3.0, -0.1, 1e-9});
+  layout.picks.measured = {{makePick("lidar", {1, 2, 3}), makePick("map", {0, 0, 0})},
+                           {makePick("base_link", {0, 0, 0}), makePick("lidar", {4, 5, 6})}};
   return layout;
 }
 
@@ -44,6 +62,9 @@ Layout makeLayout() {
   layout.windows.resize(2);
   layout.windows[0].docks = "AAAA/w==";
   layout.windows[0].place = row;
+  layout.active_view = 3;
+  layout.windows[0].corner = {-1920, 27};
+  layout.windows[1].is_maximized = true;
   layout.windows[1].width = 800;
   layout.windows[1].height = 600;
   layout.windows[1].place = view;

@@ -32,13 +32,16 @@ TEST(ViewLayout, ComesBackExactly) {
   EXPECT_EQ(back.layers, layout.layers);
   EXPECT_EQ(back.shows_layers, layout.shows_layers);
   EXPECT_EQ(back.shows_effects, layout.shows_effects);
+  EXPECT_EQ(back.shows_legend, layout.shows_legend);
+  EXPECT_EQ(back.picks, layout.picks);
 }
 
 TEST(ViewLayout, AFreshViewComesBackToo) {
   const ViewLayout back = reread({});
   EXPECT_EQ(back.fixed_frame, std::nullopt) << "automatic";
   EXPECT_EQ(back.viewpoint, ViewpointState{});
-  EXPECT_TRUE(back.has_smooth_moves && back.shows_layers && !back.is_camera_touched);
+  EXPECT_TRUE(back.has_smooth_moves && back.shows_layers && back.shows_legend && !back.is_camera_touched);
+  EXPECT_TRUE(back.picks.isEmpty());
 }
 
 TEST(ViewLayout, RoundTripIsStableByteForByte) {
@@ -51,6 +54,15 @@ TEST(ViewLayout, WhatIsMissingKeepsItsDefault) {
   ASSERT_TRUE(layout);
   EXPECT_EQ(layout->viewpoint, ViewpointState{});
   EXPECT_TRUE(layout->layers.layers.empty());
+}
+
+TEST(ViewLayout, FieldsOfWhatIsPickedComeBackAsTheirTexts) {
+  ViewLayout layout;
+  layout.picks.selected = test::makePick("lidar", {});
+  layout.picks.selected->picked.fields = {{"ring", PickValue(std::uint64_t{7})}, {"height", PickValue(0.1F)}};
+  const auto fields = reread(layout).picks.selected->picked.fields;
+  EXPECT_THAT(fields, ElementsAre(std::pair("ring", PickValue(std::string("7"))),
+                                  std::pair("height", PickValue(std::string("0.1")))));
 }
 
 TEST(ViewLayout, KeepsTheOrderOfLayers) {
@@ -67,10 +79,10 @@ TEST(ViewLayout, UnknownAttributesAndElementsSurviveEverywhere) {
       "<Camera kind=\"fly\" roll=\"2\"><Lens/></Camera><Follow wobble=\"3\"/><Effects glow=\"4\"><Extra/></Effects>"
       "<SavedView name=\"a\" tag=\"5\"><Note>text</Note><Camera zoom=\"6\"/></SavedView>"
       "<Layer id=\"/p\" pinned=\"7\"><Legend at=\"8\"/><Setting key=\"k\" value=\"v\" note=\"9\"/></Layer>"
-      "<Measure from=\"10\"><Point/></Measure>"));
+      "<Measure from=\"10\"><Point/></Measure><Picked frame=\"lidar\" tint=\"11\"><Note2/></Picked>"));
   for (const char* kept : {"of_a_later_day=\"1\"", "roll=\"2\"", "<Lens/>", "wobble=\"3\"", "glow=\"4\"", "<Extra/>",
                            "tag=\"5\"", "<Note>text</Note>", "zoom=\"6\"", "pinned=\"7\"", "<Legend at=\"8\"/>",
-                           "note=\"9\"", "<Measure from=\"10\">"}) {
+                           "note=\"9\"", "<Measure from=\"10\">", "tint=\"11\"", "<Note2/>"}) {
     EXPECT_THAT(text, HasSubstr(kept));
   }
   EXPECT_EQ(rewritten(text), text);
@@ -83,12 +95,15 @@ TEST(ViewLayout, KnownThingsThatAreGoneDoNotComeBackFromTheSource) {
   layout.layers.layers.pop_back();
   layout.saved_views.clear();
   layout.layers.layers.front().settings.clear();
+  layout.picks = {};
   const std::string text = writeXml(toXml(layout));
   EXPECT_THAT(text, Not(HasSubstr("fixed_frame=")));
   EXPECT_THAT(text, Not(HasSubstr("display_frame=")));
   EXPECT_THAT(text, Not(HasSubstr("#2")));
   EXPECT_THAT(text, Not(HasSubstr("SavedView")));
   EXPECT_THAT(text, Not(HasSubstr("key=\"size\"")));
+  EXPECT_THAT(text, Not(HasSubstr("Picked")));
+  EXPECT_THAT(text, Not(HasSubstr("Measurement")));
 }
 
 }  // namespace

@@ -17,6 +17,11 @@ TEST(WindowLayout, ComesBackExactlyAndByteForByte) {
   const Layout back = parseLayout(text).value();
   ASSERT_EQ(back.windows.size(), 2U);
   EXPECT_EQ(back.windows[0].docks, "AAAA/w==");
+  EXPECT_EQ(back.active_view, 3);
+  EXPECT_EQ(back.windows[0].corner, std::pair(-1920, 27));
+  EXPECT_FALSE(back.windows[0].is_maximized);
+  EXPECT_EQ(back.windows[1].corner, std::nullopt);
+  EXPECT_TRUE(back.windows[1].is_maximized);
   EXPECT_EQ(back.windows[1].width, 800);
   EXPECT_EQ(back.windows[1].height, 600);
   const Place& row = back.windows[0].place;

@@ -30,7 +30,7 @@ std::string textOf(const scenegraph::ViewLayout& view) { return scenegraph::writ
 class LayoutOption : public testing::Test {
  protected:
   Outcome render(const char* out, std::vector<std::string> more) {
-    std::vector<std::string> words{"render", sample_, "--out", out, "--time", "+1", "--size", "160x120", "--json"};
+    std::vector<std::string> words{"render", sample_, "--out", out, "--time", "+1", "--size", size_, "--json"};
     std::ranges::move(more, std::back_inserter(words));
     return run(folder_.path(), words);
   }
@@ -42,9 +42,46 @@ class LayoutOption : public testing::Test {
     return *std::ranges::find_if(said["layers"], [&](const auto& of) { return of["topic"] == topic; });
   }
 
+  std::string size_ = "160x120";
   TestFolder folder_;
   std::string sample_ = folder_.makeSample();
 };
+
+TEST_F(LayoutOption, ShowsWhatIsPickedMeasuredAndTheLegendUnlessToldNotTo) {
+  size_ = "640x480";
+  scenegraph::ViewLayout layout = makeLayout();
+  scenegraph::PickResult pick{
+      .topic = "tf", .layer = {}, .frame = "odom", .picked = {}, .fixed_frame = "odom", .time = {}};
+  pick.picked.point_in_frame = {1.0, 0.5, 0.5};
+  layout.picks.selected = pick;
+  scenegraph::PickResult end = pick;
+  end.picked.point_in_frame = {1.0, 1.5, 0.5};
+  layout.picks.measured.emplace_back(pick, end);
+  const std::string file = folder_.makeFile("view.xml", textOf(layout));
+  const Outcome with = render("with.png", {"--layout", file, "--no-legend"});
+  ASSERT_EQ(with.code, 0) << with.err;
+  EXPECT_NEAR(with.json()["measurements"][0]["length_m"].get<double>(), 1.0, 1e-9);
+  const Outcome without = render("without.png", {"--layout", file, "--no-legend", "--no-picks"});
+  ASSERT_EQ(without.code, 0) << without.err;
+  EXPECT_TRUE(without.json()["measurements"].empty());
+  ASSERT_EQ(render("legend.png", {"--layout", file, "--no-picks"}).code, 0);
+  const auto differs = [&](const char* a, const char* b) {
+    const auto one = picture(a);
+    const auto other = picture(b);
+    int count = 0;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      count += one[i] == other.at(i) ? 0 : 1;
+    }
+    return count;
+  };
+  EXPECT_GT(differs("with.png", "without.png"), 500);
+  EXPECT_LT(differs("with.png", "without.png"), 30'000);
+  EXPECT_GT(differs("legend.png", "without.png"), 10'000) << "as the window shows it";
+  layout.shows_legend = false;
+  const std::string plain = folder_.makeFile("plain.xml", textOf(layout));
+  ASSERT_EQ(render("plain.png", {"--layout", plain, "--no-picks"}).code, 0);
+  EXPECT_EQ(picture("plain.png"), picture("without.png"));
+}
 
 TEST_F(LayoutOption, GivesFramesCameraEffectsAndLayers) {
   const std::string file = folder_.makeFile("view.xml", textOf(makeLayout()));
@@ -113,11 +150,12 @@ TEST_F(LayoutOption, LayoutOfAnotherRecordingAppliesWhatItCan) {
   layout.layers.layers.push_back({"/radar", "", true, {{"gain", "2"}}});
   layout.layers.layers[1].settings["sparkle"] = "1";
   layout.effects["glow"] = "true";
+  layout.picks.selected.emplace().frame = "hangar";
   const Outcome drawn = render("a.png", {"--layout", folder_.makeFile("view.xml", textOf(layout))});
   ASSERT_EQ(drawn.code, 0) << drawn.err;
   const auto said = drawn.json();
   EXPECT_EQ(said["fixed_frame"], "map") << "automatic";
-  EXPECT_EQ(said["layout_notes"].size(), 5U) << said["layout_notes"];
+  EXPECT_EQ(said["layout_notes"].size(), 6U) << said["layout_notes"];
   EXPECT_EQ(layer(said, "grid")["visible"], false);
 }
 

@@ -1,0 +1,185 @@
+// Pictures of views and of the window, as files.
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <QAction>
+#include <QApplication>
+#include <QFileInfo>
+#include <QMenu>
+#include <QProgressBar>
+#include <QSpinBox>
+#include <QStatusBar>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <algorithm>
+
+#include "tests/viewer/open_window.h"
+#include "tests/viewer/viewer_support.h"
+#include "viewer/pick/view_picks.h"
+#include "viewer/window/message_bar.h"
+#include "viewer/window/picture_dialog.h"
+#include "viewer/window/picture_saver.h"
+
+namespace stillframe::viewer {
+namespace {
+
+using test::settle;
+using test::waitFor;
+
+class SavedPictures : public test::OpenWindowTest {};
+
+struct RgbaFile {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
+RgbaFile readRgba(const QString& file) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  EXPECT_NE(png_image_begin_read_from_file(&image, file.toLocal8Bit().constData()), 0) << file.toStdString();
+  image.format = PNG_FORMAT_RGBA;
+  std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(image));
+  EXPECT_NE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr), 0);
+  return {static_cast<int>(image.width), static_cast<int>(image.height), std::move(bytes)};
+}
+
+TEST_F(SavedPictures, APictureOfTheViewHasAnySizeAndAlpha) {
+  open({.files = {"robot.mcap"}, .time = "+1"});
+  const QTemporaryDir folder;
+  const auto executor = scenegraph::makeThreadPoolExecutor(1);
+  PictureSaver saver(*executor);
+  QStringList saved;
+  QObject::connect(&saver, &PictureSaver::saved, &saver, [&](const QString& file) { saved << file; });
+  QString error;
+  QObject::connect(&saver, &PictureSaver::failed, &saver, [&](const QString& message) { error = message; });
+  const QImage before = view().grabFramebuffer();
+
+  saver.saveView(view(), {.width_px = 700, .height_px = 300, .is_transparent = true}, folder.filePath("clear.png"));
+  saver.saveView(view(), {.width_px = 64, .height_px = 64}, folder.filePath("solid.png"));
+  saver.saveView(view(), {.width_px = 64, .height_px = 64}, folder.filePath("light.exr"));
+  EXPECT_EQ(saver.pending(), 3);
+  EXPECT_TRUE(saved.isEmpty()) << "the window has its time to say so";
+  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  EXPECT_EQ(saved.size(), 3) << error.toStdString();
+  const RgbaFile clear = readRgba(folder.filePath("clear.png"));
+  EXPECT_EQ(clear.width, 700);
+  EXPECT_EQ(clear.height, 300);
+  std::size_t nothing = 0;
+  std::size_t opaque = 0;
+  for (std::size_t i = 3; i < clear.bytes.size(); i += 4) {
+    nothing += clear.bytes[i] == 0 ? 1U : 0U;
+    opaque += clear.bytes[i] == 255 ? 1U : 0U;
+  }
+  EXPECT_GT(nothing, 50'000U);
+  EXPECT_GT(opaque, 1'000U);
+  const RgbaFile solid = readRgba(folder.filePath("solid.png"));
+  for (std::size_t i = 3; i < solid.bytes.size(); i += 4) {
+    ASSERT_EQ(solid.bytes[i], 255);
+  }
+  EXPECT_GT(QFileInfo(folder.filePath("light.exr")).size(), 1000);
+
+  settle();
+  EXPECT_EQ(view().grabFramebuffer(), before) << "the view goes on as it was";
+  EXPECT_EQ(view().glMessages(), 0U);
+  EXPECT_EQ(view().takePicture({.width_px = 1'000'000, .height_px = 10}).error().code, "TooLarge");
+  EXPECT_EQ(view().takePicture({.width_px = 0, .height_px = 10}).error().code, "BadSize");
+  EXPECT_EQ(SceneWidget().takePicture({}).error().code, "NotDrawn");
+  saver.saveView(view(), {.width_px = 8, .height_px = 8}, folder.filePath("no/such/a.png"));
+  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  EXPECT_TRUE(error.contains(QStringLiteral("no/such/a.png")));
+}
+
+TEST_F(SavedPictures, ThatAPictureIsDrawnIsShownBeforeItIsDrawn) {
+  open({.files = {"robot.mcap"}, .time = "+1"});
+  const QTemporaryDir folder;
+  const auto executor = scenegraph::makeThreadPoolExecutor(1);
+  PictureSaver saver(*executor);
+  QMenu menu;
+  addPictureActions(menu, *window_, saver, [this]() -> ViewPanel& { return *window_->views().front(); });
+  const auto bars = window_->findChildren<QProgressBar*>(QStringLiteral("pictureProgress"));
+  ASSERT_EQ(bars.size(), 2) << "the window's own, and ours";
+  bool was_painted = false;
+  QObject::connect(&saver, &PictureSaver::drawn, window_.get(), [&] { was_painted = bars.back()->isVisible(); });
+  saver.saveView(view(), {.width_px = 2000, .height_px = 1000}, folder.filePath("large.png"));
+  EXPECT_TRUE(bars.back()->isVisible());
+  EXPECT_TRUE(window_->statusBar()->currentMessage().contains(QStringLiteral("2000 x 1000")));
+  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  EXPECT_TRUE(was_painted);
+  EXPECT_FALSE(bars.back()->isVisible());
+  saver.saveView(view(), {.width_px = 0, .height_px = 1}, folder.filePath("none.png"));
+  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  EXPECT_FALSE(bars.back()->isVisible());
+}
+
+TEST_F(SavedPictures, APictureOfTheViewHasItsLegendAndWhatIsMeasured) {
+  open();
+  ASSERT_TRUE(view().scene()->findLayer("/points")->layer->applySettings({{"color_field", "z"}}));
+  scenegraph::PickResult pick{
+      .topic = "/points", .layer = {}, .frame = "lidar", .picked = {}, .fixed_frame = "map", .time = {}};
+  view().picks().select(pick);
+  pick.frame = "map";
+  view().picks().measureTo(pick);
+  view().requestTick();
+  settle();
+  PictureRequest request{.width_px = 640, .height_px = 480};
+  const auto bare = view().takePicture(request);
+  request.has_legend = true;
+  const auto legend = view().takePicture(request);
+  request.has_legend = false;
+  request.has_picks = true;
+  const auto picks = view().takePicture(request);
+  request.has_legend = true;
+  request.is_scene_linear = true;
+  const auto linear = view().takePicture(request);
+  ASSERT_TRUE(bare && legend && picks && linear);
+  const auto differs = [&](const scenegraph::Picture& picture) {
+    int count = 0;
+    for (std::size_t i = 0; i < bare->rgba.size(); i += 4) {
+      count += std::equal(&bare->rgba[i], &bare->rgba[i] + 3, &picture.rgba[i]) ? 0 : 1;
+    }
+    return count;
+  };
+  EXPECT_GT(differs(*legend), 5'000);
+  EXPECT_GT(differs(*picks), 300);
+  EXPECT_LT(differs(*picks), 20'000);
+  EXPECT_EQ(linear->rgba, bare->rgba) << "what is for measuring has neither";
+  ASSERT_TRUE(view().scene()->findLayer("/points")->layer->applySettings({{"legend", "false"}}));
+  request.is_scene_linear = false;
+  request.has_picks = false;
+  view().requestTick();
+  settle();
+  EXPECT_EQ(view().takePicture(request)->rgba, bare->rgba) << "the layer's own switch";
+}
+
+TEST_F(SavedPictures, APictureOfTheWindowIsAllOfIt) {
+  open();
+  const QTemporaryDir folder;
+  const auto executor = scenegraph::makeThreadPoolExecutor(1);
+  PictureSaver saver(*executor);
+  saver.saveWindow(*window_, folder.filePath("window.png"));
+  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  const QImage image(folder.filePath("window.png"));
+  EXPECT_EQ(image.size(), window_->size() * window_->devicePixelRatioF());
+  EXPECT_GT(test::drawnPixels(image), 1000);
+}
+
+TEST_F(SavedPictures, TheMenuAsksForSizeAndFile) {
+  open();
+  const QTemporaryDir folder;
+  QTimer::singleShot(0, window_.get(), [&] {
+    auto* const dialog = qobject_cast<PictureDialog*>(QApplication::activeModalWidget());
+    ASSERT_NE(dialog, nullptr);
+    dialog->findChild<QSpinBox*>(QStringLiteral("width"))->setValue(123);
+    EXPECT_EQ(dialog->request().width_px, 123);
+    EXPECT_FALSE(dialog->request().is_transparent);
+    EXPECT_TRUE(dialog->request().has_legend) << "as the view shows it";
+    EXPECT_FALSE(dialog->request().has_picks) << "there are none";
+    dialog->reject();
+  });
+  window_->findChild<QAction*>(QStringLiteral("savePicture"))->trigger();
+  EXPECT_EQ(window_->messageBar().text(), QString());
+}
+
+}  // namespace
+}  // namespace stillframe::viewer

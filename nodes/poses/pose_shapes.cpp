@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "nodes/axis_colors.h"
 #include "nodes/osg_math.h"
@@ -55,10 +56,14 @@ std::array<glm::dquat, 3> armRotations() {
 PoseShapes::~PoseShapes() { clear(); }
 
 void PoseShapes::clear() {
-  for (const auto& mesh : meshes_) {
-    parent_.removeChild(&mesh->node());
+  for (const Hung& hung : meshes_) {
+    parent_.removeChild(&hung.mesh->node());
   }
   meshes_.clear();
+  forgetAllButMeshes();
+}
+
+void PoseShapes::forgetAllButMeshes() {
   if (line_) {
     parent_.removeChild(line_place_);
     line_.reset();
@@ -75,7 +80,11 @@ void PoseShapes::clear() {
 }
 
 void PoseShapes::build(const PoseSet& shown, const PoseTrail* trail, const PosesSettings& settings) {
-  clear();
+  for (const Hung& hung : meshes_) {
+    parent_.removeChild(&hung.mesh->node());
+  }
+  spare_ = std::exchange(meshes_, {});
+  forgetAllButMeshes();
   const PosesKind kind = shown.source().kind;
   buildShapes(trail != nullptr && settings.trail_shapes ? trail->poses : shown, settings, kind);
   const bool is_line = kind == PosesKind::Path || kind == PosesKind::Polygon || trail != nullptr;
@@ -91,6 +100,7 @@ void PoseShapes::build(const PoseSet& shown, const PoseTrail* trail, const Poses
   if (settings.child_label && !shown.source().child_frame_id.empty()) {
     buildLabel(shown, settings);
   }
+  spare_.clear();
 }
 
 std::optional<PoseShapes::PoseHit> PoseShapes::poseAt(const scenegraph::PickHit& hit, const PoseSet& shown,
@@ -115,7 +125,7 @@ std::optional<PoseShapes::PoseHit> PoseShapes::poseAt(const scenegraph::PickHit&
                                            "line"})
                    : std::nullopt;
   }
-  for (const auto& mesh : meshes_) {
+  for (const auto& [shape, mesh] : meshes_) {
     if (!hit.isBeneath(mesh->node()) || hit.instance >= mesh->size()) {
       continue;
     }
@@ -130,11 +140,19 @@ std::optional<PoseShapes::PoseHit> PoseShapes::poseAt(const scenegraph::PickHit&
   return std::nullopt;
 }
 
-void PoseShapes::hang(const TriangleMesh& mesh, const char* name, const glm::dvec3& origin, const Copies& copies) {
+void PoseShapes::hang(const TriangleMesh& mesh, const char* name, std::string_view shape, const glm::dvec3& origin,
+                      const Copies& copies) {
   if (copies.instances.empty()) {
     return;
   }
-  InstancedMesh& added = *meshes_.emplace_back(std::make_unique<InstancedMesh>(mesh, name));
+  const auto spare = shape.empty() ? spare_.end() : std::ranges::find(spare_, shape, &Hung::shape);
+  if (spare != spare_.end()) {
+    meshes_.push_back(std::move(*spare));
+    spare_.erase(spare);
+  } else {
+    meshes_.push_back({std::string(shape), std::make_unique<InstancedMesh>(mesh, name)});
+  }
+  InstancedMesh& added = *meshes_.back().mesh;
   added.setOrigin(origin);
   added.resize(copies.instances.size());
   added.set(0, copies.instances);
@@ -185,14 +203,14 @@ void PoseShapes::buildShapes(const PoseSet& poses, const PosesSettings& settings
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const glm::dvec3 middle = kArms[axis] * glm::dvec3(0.0, 0.0, length / 2);
-      add(*pose * tf::RigidTransform{kArms[axis], middle}, {length / 12, length / 12, length},
-          settings.override_color ? settings.arm_color : kAxisColors[axis], i);
+      add({pose->rotation * kArms[axis], pose->translation + pose->rotation * middle},
+          {length / 12, length / 12, length}, settings.override_color ? settings.arm_color : kAxisColors[axis], i);
     }
   }
   hang(shape == "spheres"  ? sphereMesh(16)
        : shape == "arrows" ? arrowMesh(10)
                            : frustumMesh(0.5F, 0.5F, 8),
-       shape == "spheres" ? "points" : "poses", poses.origin(), copies);
+       shape == "spheres" ? "points" : "poses", shape, poses.origin(), copies);
 }
 
 void PoseShapes::buildLine(const PoseSet& poses, const PosesSettings& settings) {
@@ -252,7 +270,7 @@ void PoseShapes::buildFill(const PoseSet& polygon, const PosesSettings& settings
       mesh.triangles.push_back(mesh.triangles[i + corner] + static_cast<std::uint32_t>(corners));
     }
   }
-  hang(mesh, "fill", polygon.origin(),
+  hang(mesh, "fill", "", polygon.origin(),
        {.instances = {makeInstance({.translation = polygon.origin()}, glm::dvec3(1.0), polygon.origin(),
                                    withAlpha(settings.color, alpha))},
         .is_blended = alpha < 1.0});
@@ -267,7 +285,7 @@ void PoseShapes::buildCovariance(const PoseSet& poses, const PosesSettings& sett
   const auto solid = [&](const TriangleMesh& mesh, const char* name, const tf::RigidTransform& place,
                          const glm::dvec3& scale, const Color& color) {
     const Color seen = withAlpha(color, settings.opacity);
-    hang(mesh, name, poses.origin(),
+    hang(mesh, name, name, poses.origin(),
          {.instances = {makeInstance(place, scale, poses.origin(), seen)}, .is_blended = seen.a < 1.0F});
   };
   const auto flattened = [](glm::dvec3 extent) {

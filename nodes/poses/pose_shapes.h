@@ -7,6 +7,8 @@
 #include <osg/MatrixTransform>
 #include <osg/ref_ptr>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "nodes/lines/line_drawable.h"
 #include "nodes/poses/covariance.h"
@@ -74,10 +76,19 @@ class PoseShapes {
   void buildFill(const PoseSet& polygon, const PosesSettings& settings);
   void buildCovariance(const PoseSet& poses, const PosesSettings& settings);
   void buildLabel(const PoseSet& poses, const PosesSettings& settings);
-  void hang(const TriangleMesh& mesh, const char* name, const glm::dvec3& origin, const Copies& copies);
+  /// Copies of `mesh`, which is always the same for a `shape` that is not "": those of the build before are used again.
+  void hang(const TriangleMesh& mesh, const char* name, std::string_view shape, const glm::dvec3& origin,
+            const Copies& copies);
+  void forgetAllButMeshes();
+
+  struct Hung {
+    std::string shape;
+    std::unique_ptr<InstancedMesh> mesh;
+  };
 
   osg::MatrixTransform& parent_;
-  std::vector<std::unique_ptr<InstancedMesh>> meshes_;
+  std::vector<Hung> meshes_;
+  std::vector<Hung> spare_;  // of the build before, during a build
   std::optional<LineDrawable> line_;
   std::optional<ValueRange> line_range_;
   osg::ref_ptr<osg::MatrixTransform> line_place_;

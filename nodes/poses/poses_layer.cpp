@@ -157,7 +157,9 @@ void PosesLayer::clear() {
 }
 
 void PosesLayer::show() {
-  shapes_->clear();
+  if (product() == nullptr) {
+    shapes_->clear();  // else draw() follows, which keeps the meshes
+  }
   reapply();
 }
 

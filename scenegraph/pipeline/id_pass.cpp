@@ -239,7 +239,8 @@ std::optional<std::vector<IdSample>> IdPass::draw(osg::Group& root, const View& 
   collect(root, view, !points.has_value());
   const int side = 2 * view.reach_px + 1;
   const auto at = [side](int dx, int dy, int reach) {
-    return static_cast<std::size_t>((dy + reach) * side + dx + reach);
+    const int place = (dy + reach) * side + dx + reach;
+    return static_cast<std::size_t>(place);
   };
   std::vector<gl::IdTarget::Id> ids(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
   std::vector<float> depths(ids.size(), 0.0F);

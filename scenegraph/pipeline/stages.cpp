@@ -77,8 +77,10 @@ class AdoptBlended : public osg::NodeCallback {
     }
   }
 
- private:
+ protected:
   ~AdoptBlended() override = default;
+
+ private:
   osg::ref_ptr<Transparency> transparency_;
 };
 

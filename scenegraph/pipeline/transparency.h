@@ -39,8 +39,10 @@ class Transparency : public osgUtil::RenderBin::DrawCallback {
   /// The context must be current.
   void release(osg::State& state);
 
- private:
+ protected:
   ~Transparency() override = default;
+
+ private:
   struct Rows {
     int first = 0;
     int count = 0;

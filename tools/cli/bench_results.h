@@ -57,7 +57,7 @@ double bestSecondsOf(int calls, const Function& function) {
 void benchClouds(std::vector<BenchResult>& results);
 /// Cloudini and Draco decoding beside memory copy and the bare library.
 void benchCodecs(std::vector<BenchResult>& results);
-/// States of an occupancy grid under a stream of patches.
+/// States of an occupancy grid under a stream of patches; ticks of a grid map.
 void benchGrids(std::vector<BenchResult>& results);
 /// Ticks of a robot of 200 links.
 void benchRobot(std::vector<BenchResult>& results);

@@ -314,6 +314,9 @@ Result<void> runRender(const RenderCommandOptions& options) {
     }
     std::fputs(jsonText(json).c_str(), stdout);
   } else {
+    if (run->is_exr && run->effects.chain().passes.size() > run->effects.linearChain().passes.size()) {
+      std::puts("  an .exr is scene-linear: without tone mapping, exposure and dithering");
+    }
     printLines("layout", session.layoutNotes());
     printRemarks(session.scene(), session.scene().dataset());
   }

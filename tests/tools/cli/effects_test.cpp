@@ -75,6 +75,8 @@ TEST_F(RenderEffects, AnExrIsSceneLinearWhateverTheToneCurve) {
   (void)render("plain.exr", {});
   (void)render("toned.exr", {"--tonemap", "aces", "--exposure", "3"});
   EXPECT_EQ(channel("plain.exr", "R"), channel("toned.exr", "R"));
+  const Outcome said = run(folder_.path(), {"render", sample_, "--out", "b.exr", "--size", "9x9", "--exposure", "1"});
+  EXPECT_THAT(said.out, HasSubstr("scene-linear: without tone mapping"));
 }
 
 TEST_F(RenderEffects, AnExrHasNormalsAndLayersOnRequest) {

@@ -48,9 +48,14 @@ std::size_t PointStage::startAnew(const PointCollection& points, int width_px, i
 
 std::uint32_t PointStage::affordablePasses(const PointLimits& limits) const {
   const double per_pass = static_cast<double>(in_view_) / kPassesOfSample;
-  const double passes = std::max(limits.budget_ms - resolve_ms_, 0.0) * points_per_ms_ / per_pass;
+  // Where the rest of a frame takes all of its time, as on a busy machine, the picture still comes to an end.
+  constexpr double kLeast = 0.25;
+  constexpr std::uint32_t kMostFrames = 64;
+  const double budget_ms = std::max(limits.budget_ms - resolve_ms_, kLeast * limits.budget_ms);
+  const double passes = std::max(budget_ms, 0.0) * points_per_ms_ / per_pass;
+  const std::uint32_t least = passes_ == 0 ? 1 : kPassesOfSample / kMostFrames;
   const std::uint32_t left = limits.passes - passes_;
-  return passes < left ? std::max(static_cast<std::uint32_t>(passes), 1U) : left;
+  return passes < left ? std::clamp(static_cast<std::uint32_t>(passes), std::min(least, left), left) : left;
 }
 
 PointProgress PointStage::draw(PointCollection points, int width_px, int height_px, const PointLimits& limits) {

@@ -258,6 +258,15 @@ TEST_F(PointStageSteps, GoOnWhereTimeRanOutUntilThePictureIsWhole) {
   EXPECT_EQ(colors(stepwise), colors(whole));
 }
 
+TEST_F(PointStageSteps, ComeToAnEndWithoutAnyTime) {
+  scenegraph::PointStage stage(2);
+  int steps = 0;
+  while (step(stage, 0.0).share < 1.0) {
+    ASSERT_LT(++steps, 80);
+  }
+  EXPECT_GT(steps, 60);
+}
+
 TEST_F(PointStageSteps, DrawNoPointAgainForAnotherColour) {
   scenegraph::PointStage stage(2);
   EXPECT_GT(step(stage, 1e9).raster_ms, 0.0);

@@ -136,13 +136,14 @@ LaserScanLayer::Shown LaserScanLayer::drawnOf(const Shown& loaded) {
       if (plan_) {
         job_.emplace(context().executor, context().request_update);
         job_->request({.payload_bytes = ++job_number_, .product = "deskewed"},
-                      [loaded, plan = *plan_]() -> scenegraph::LatestJob<CloudPoints>::Result {
+                      [loaded, plan = *plan_, settings = chosen()]() -> scenegraph::LatestJob<CloudPoints>::Result {
                         auto points = CloudPoints::make(std::make_shared<const scenegraph::PointCloud>(
                                                             deskew(loaded->source(), plan.motion, plan.first_beam)),
                                                         loaded->supplement());
                         if (!points) {
                           return std::unexpected(points.error());
                         }
+                        prepareColors(*points, chooseColor(settings.color_field, *points, *points), settings);
                         return std::make_shared<const CloudPoints>(std::move(*points));
                       });
       }

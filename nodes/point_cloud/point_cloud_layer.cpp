@@ -126,13 +126,21 @@ bool PointCloudLayer::hasColorsFor(const ColorChoice& choice) {
     color_work_.reset();
     return true;
   }
+  const auto prepareBoth = [work] {
+    for (const Shown& cloud : {work.cloud, work.reference}) {
+      prepareColors(*cloud, work.choice, work.settings);
+    }
+  };
+  constexpr std::size_t kQuick = 100'000;  // points: some milliseconds
+  if (product()->converted().points + reference()->converted().points <= 2 * kQuick) {
+    prepareBoth();
+    return true;
+  }
   if (color_work_ != work) {
     color_work_ = work;
     color_job_->request({.sequence = ++color_jobs_, .product = "colors"},
-                        [work]() -> scenegraph::LatestJob<CloudPoints>::Result {
-                          for (const Shown& cloud : {work.cloud, work.reference}) {
-                            prepareColors(*cloud, work.choice, work.settings);
-                          }
+                        [work, prepareBoth]() -> scenegraph::LatestJob<CloudPoints>::Result {
+                          prepareBoth();
                           return work.cloud;
                         });
   }

@@ -37,9 +37,9 @@ struct CloudFeed {
 /// One topic of clouds as points (REQUIREMENTS C2); of anything else that becomes points, with its own CloudFeed.
 ///
 /// Beneath the source frame's node lies one MatrixTransform, the cloud's pose and origin in double, and beneath it one
-/// geometry. Colour, range and size are uniforms; another field is another array, converted on a worker while the
-/// colours stay what they were. Arrays are uploaded when first drawn and freed from the GPU when another cloud is
-/// shown. A tick at the same message costs two lookups. GUI thread.
+/// geometry. Colour, range and size are uniforms; another field is another array, of large clouds converted on a worker
+/// while the colours stay what they were. Arrays are uploaded when first drawn and freed from the GPU when another
+/// cloud is shown. A tick at the same message costs two lookups. GUI thread.
 class PointCloudLayer : public SampleLayer<CloudPoints, PointCloudSettings> {
  public:
   [[nodiscard]] static std::unique_ptr<scenegraph::Layer> create(std::string_view topic);

@@ -13,7 +13,7 @@ using nodes::CloudPoints;
 using scenegraph::ObjectType;
 using scenegraph::PointCloud;
 
-constexpr int kPoints = 70'000;  // at 20 bytes each: more than CloudPoints::kSmallBytes
+constexpr int kPoints = 120'000;  // more bytes than CloudPoints::kSmallBytes, and more than are coloured at once
 
 PointCloud largeCloud() {
   PointCloud cloud;

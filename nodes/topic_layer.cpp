@@ -96,14 +96,11 @@ void TopicLayer::hold(const std::optional<std::string>& frame) {
     return;
   }
   if (held_frame_) {
-    if (osg::MatrixTransform* const parent = context_->frames.node(*held_frame_)) {
-      parent->removeChild(node_);
-    }
-    context_->frames.release(*held_frame_);
+    context_->frames.unhang(*held_frame_, *node_);
   }
   held_frame_ = frame;
   if (held_frame_) {
-    context_->frames.acquire(*held_frame_).addChild(node_);
+    context_->frames.hang(*held_frame_, *node_);
   }
 }
 

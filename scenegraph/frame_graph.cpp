@@ -8,6 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <osg/Matrixd>
 #include <utility>
+#include <vector>
 
 namespace stillframe::scenegraph {
 namespace {
@@ -18,6 +19,22 @@ constexpr osg::Node::NodeMask kShown = ~0U;
 bool isSameByBits(const tf::RigidTransform& a, const tf::RigidTransform& b) {
   using Bits = std::array<std::uint64_t, 7>;
   return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
+
+template <typename Key>
+void sortChildren(osg::Group& group, const Key& keyOf) {
+  std::vector<std::pair<decltype(keyOf(nullptr)), osg::ref_ptr<osg::Node>>> sorted;
+  for (unsigned i = 0; i < group.getNumChildren(); ++i) {
+    sorted.emplace_back(keyOf(group.getChild(i)), group.getChild(i));
+  }
+  using Keyed = typename decltype(sorted)::value_type;
+  if (std::ranges::is_sorted(sorted, {}, &Keyed::first)) {
+    return;
+  }
+  std::ranges::stable_sort(sorted, {}, &Keyed::first);
+  for (unsigned i = 0; i < group.getNumChildren(); ++i) {
+    group.setChild(i, sorted[i].second);
+  }
 }
 
 }  // namespace
@@ -85,16 +102,55 @@ osg::MatrixTransform& FrameGraph::acquire(std::string_view frame) {
     root_->addChild(node.transform);
   }
   ++node.users;
+  ++hang_revision_;
   return *node.transform;
 }
 
 void FrameGraph::release(std::string_view frame) {
   const auto found = nodes_.find(std::string(tf::stripLeadingSlashes(frame)));
+  ++hang_revision_;
   if (found == nodes_.end() || --found->second.users > 0) {
     return;
   }
   root_->removeChild(found->second.transform);
   nodes_.erase(found);
+}
+
+void FrameGraph::hang(std::optional<std::string_view> frame, osg::Node& child) {
+  osg::Group& parent = frame ? static_cast<osg::Group&>(acquire(*frame)) : *root_;
+  parent.addChild(&child);
+  ++hang_revision_;
+}
+
+void FrameGraph::unhang(std::optional<std::string_view> frame, osg::Node& child) {
+  if (osg::Group* const parent = frame ? static_cast<osg::Group*>(node(*frame)) : root_.get()) {
+    parent->removeChild(&child);
+  }
+  if (frame) {
+    release(*frame);
+  }
+  ++hang_revision_;
+}
+
+void FrameGraph::arrange(std::span<osg::Node* const> nodes) {
+  std::unordered_map<const osg::Node*, std::size_t> places;
+  for (osg::Node* const node : nodes) {
+    places.try_emplace(node, places.size());
+  }
+  const auto placeOf = [&](const osg::Node* node) {
+    const auto found = places.find(node);
+    return found == places.end() ? places.size() : found->second;
+  };
+  std::unordered_map<const osg::Node*, std::size_t> firsts;
+  for (const auto& [frame, node] : nodes_) {
+    sortChildren(*node.transform, placeOf);
+    firsts[node.transform.get()] =
+        node.transform->getNumChildren() > 0 ? placeOf(node.transform->getChild(0)) : places.size();
+  }
+  sortChildren(*root_, [&](const osg::Node* child) {
+    const auto found = firsts.find(child);
+    return std::pair(found == firsts.end() ? placeOf(child) : found->second, std::string_view(child->getName()));
+  });
 }
 
 osg::MatrixTransform* FrameGraph::node(std::string_view frame) const {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <expected>
 #include <memory>
 #include <optional>
 #include <osg/Group>
 #include <osg/MatrixTransform>
 #include <osg/ref_ptr>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -37,6 +39,16 @@ class FrameGraph {
   /// graph with the last. The frame need not be known to the buffer yet.
   osg::MatrixTransform& acquire(std::string_view frame);
   void release(std::string_view frame);
+  /// Acquires the node of `frame` and puts `child` beneath it; without a frame beneath root() itself.
+  void hang(std::optional<std::string_view> frame, osg::Node& child);
+  /// Takes `child` off again, and releases.
+  void unhang(std::optional<std::string_view> frame, osg::Node& child);
+  /// Another number whenever something was hung or acquired, taken off or released.
+  [[nodiscard]] std::uint64_t hangRevision() const noexcept { return hang_revision_; }
+  /// Puts what hangs beneath each frame, and the frames by the first of it, into this order, so that what is drawn
+  /// first does not depend on what was hung first; what is not among `nodes` comes after them. O(what hangs in the
+  /// graph).
+  void arrange(std::span<osg::Node* const> nodes);
   /// The node when somebody holds it, else nullptr.
   [[nodiscard]] osg::MatrixTransform* node(std::string_view frame) const;
 
@@ -72,6 +84,7 @@ class FrameGraph {
   tf::TimePoint time_;
   bool is_ticked_ = false;
   std::optional<std::uint64_t> ids_revision_;  // of the buffer when the nodes' ids were looked up
+  std::uint64_t hang_revision_ = 0;
   tf::Snapshot snapshot_;
   TickCounts counts_;
 };

@@ -312,6 +312,21 @@ void Scene::updateLayers(tf::TimePoint time) {
     Count& count = counts[slot->type];
     slot->layer->update(Tick{time, count.before++, count.all, buffer_texels_});
   }
+  arrangeNodes();
+}
+
+void Scene::arrangeNodes() {
+  const std::pair revisions(frames_.hangRevision(), layers_revision_);
+  if (arranged_ == revisions) {
+    return;
+  }
+  arranged_ = revisions;
+  // Of what has the same depth the first that is drawn is seen.
+  std::vector<osg::Node*> nodes;
+  for (const auto& slot : layers_) {
+    slot->layer->collectNodes(nodes);
+  }
+  frames_.arrange(nodes);
 }
 
 bool Scene::noteSettings() {

@@ -73,7 +73,7 @@ class Scene {
   LayerSlot& duplicateLayer(const LayerSlot& original);
   void removeLayer(std::string_view id);
   /// Puts the layers of these ids in front, in this order, and leaves the others as they are; unknown ids do nothing.
-  /// Of flat things in one plane the later layer covers the earlier.
+  /// Of flat things in one plane the later layer covers the earlier; of what has the very same depth the earlier is seen.
   void arrangeLayers(std::span<const std::string> ids);
   [[nodiscard]] LayerSlot* findLayer(std::string_view id);
   [[nodiscard]] const std::vector<std::unique_ptr<LayerSlot>>& layers() const noexcept { return layers_; }
@@ -115,6 +115,7 @@ class Scene {
   [[nodiscard]] std::string firstSourceFrame() const;
   [[nodiscard]] std::uint64_t layerSettings() const;
   void updateLayers(tf::TimePoint time);
+  void arrangeNodes();
   bool noteSettings();
 
   std::shared_ptr<Dataset> dataset_;
@@ -125,6 +126,7 @@ class Scene {
   std::vector<std::unique_ptr<LayerSlot>> layers_;
   std::set<std::string> removed_topics_;
   std::uint64_t layers_revision_ = 0;
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> arranged_;  // hangRevision() and layers_revision_ of then
   std::uint64_t buffer_texels_ = kUsualBufferTexels;
   std::optional<std::string> chosen_frame_;
   std::optional<std::string> preferred_frame_;

@@ -114,23 +114,18 @@ void GridLayer::hang() {
   }
   unhang();
   held_frame_ = frame;
-  osg::Group& parent =
-      frame.empty() ? context_->frames.root() : static_cast<osg::Group&>(context_->frames.acquire(frame));
-  parent.addChild(geometry_);
+  context_->frames.hang(heldNode(), *geometry_);
 }
 
 void GridLayer::unhang() {
-  if (!held_frame_) {
-    return;
+  if (held_frame_) {
+    context_->frames.unhang(heldNode(), *geometry_);
+    held_frame_.reset();
   }
-  osg::Group* const parent = held_frame_->empty() ? &context_->frames.root() : context_->frames.node(*held_frame_);
-  if (parent != nullptr) {
-    parent->removeChild(geometry_);
-  }
-  if (!held_frame_->empty()) {
-    context_->frames.release(*held_frame_);
-  }
-  held_frame_.reset();
+}
+
+std::optional<std::string_view> GridLayer::heldNode() const {
+  return held_frame_->empty() ? std::nullopt : std::optional<std::string_view>(*held_frame_);
 }
 
 void GridLayer::detach() {

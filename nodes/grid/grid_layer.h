@@ -50,6 +50,7 @@ class GridLayer final : public scenegraph::Layer {
   std::expected<void, scenegraph::SettingError> changeSettings(const scenegraph::SettingTexts& texts) override;
   void hang();
   void unhang();
+  [[nodiscard]] std::optional<std::string_view> heldNode() const;  // nullopt: the root
   void applyChanges();
 
   Settings settings_;

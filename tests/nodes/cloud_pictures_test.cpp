@@ -62,6 +62,23 @@ TEST_F(CloudPicture, ColoursByIntensityOverItsRangeByDefault) {
   EXPECT_EQ(layer.counts(), (scenegraph::LayerCounts{{"points", 3}, {"dropped", 0}, {"bytes", 48}}));
 }
 
+TEST_F(CloudPicture, TheEarlierOfTwoLayersAtOnePlaceIsSeenWhicheverWasHiddenBefore) {
+  open(datasetOf(threePoints({0, 0, 0}, {1, 2, 3})), "map");
+  auto& first = add("/points", with(kBig, {{"color_field", "flat"}, {"flat_color", "#ff0000"}}));
+  auto& second = add("/points#2", with(kBig, {{"color_field", "flat"}, {"flat_color", "#00ff00"}}));
+  const Bytes3 red{255, 0, 0};
+  const Bytes3 green{0, 255, 0};
+  EXPECT_EQ(drawThree()[1], red);
+  for (auto* const hidden : {&first, &second}) {
+    hidden->setVisible(false);
+    EXPECT_EQ(drawThree()[1], hidden == &first ? green : red);
+    hidden->setVisible(true);
+    EXPECT_EQ(drawThree()[1], red);
+  }
+  scene_->arrangeLayers(std::vector<std::string>{"/points#2", "/points"});
+  EXPECT_EQ(drawThree()[1], green);
+}
+
 TEST_F(CloudPicture, SizesPointsInPixelsAndDrawsDiscsRound) {
   open(datasetOf(CloudBuilder("lidar").xyz().point({0, 0, 0}).build()), "map");
   auto& layer = add("/points", {{"point_size", "20"}, {"color_field", "flat"}});

@@ -56,9 +56,7 @@ std::string osgText(const osg::Object& object) {
 
 class Dump : public osg::NodeVisitor {
  public:
-  explicit Dump(osg::Node& root) : NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), root_(&root) {
-    out_ << std::setprecision(17);
-  }
+  Dump() : NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) { out_ << std::setprecision(17); }
 
   void apply(osg::Node& node) override {
     if (node.getNodeMask() == 0U) {
@@ -140,9 +138,6 @@ class Dump : public osg::NodeVisitor {
         ordered.push_back(group->getChild(i));
       }
     }
-    if (&node == root_) {
-      std::ranges::stable_sort(ordered, {}, [](const osg::Node* child) { return child->getName(); });
-    }
     for (osg::Node* const child : ordered) {
       child->accept(*this);
     }
@@ -181,7 +176,6 @@ class Dump : public osg::NodeVisitor {
     }
   }
 
-  osg::Node* root_;
   std::ostringstream out_;
   std::size_t depth_ = 0;
   std::string pending_;  // the matrix line of the transform being applied
@@ -210,7 +204,7 @@ class ForeignClasses : public osg::NodeVisitor {
 }  // namespace
 
 std::string dumpGraph(osg::Node& root) {
-  Dump dump(root);
+  Dump dump;
   root.accept(dump);
   return dump.text();
 }

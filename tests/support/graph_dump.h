@@ -7,8 +7,8 @@ namespace stillframe::test {
 
 /// What is drawn beneath `root`, as text: equal texts mean equal pictures, bit for bit.
 ///
-/// Names, matrices, arrays, primitives, uniforms and state; nothing of nodes that are masked off, of children's order
-/// beneath the root (frames come and go) or of bounds. Doubles and floats are written exactly, arrays by their hash.
+/// Names, matrices, arrays, primitives, uniforms and state, in the order in which they are drawn; nothing of nodes that
+/// are masked off, or of bounds. Doubles and floats are written exactly, arrays by their hash.
 [[nodiscard]] std::string dumpGraph(osg::Node& root);
 
 /// How a graph is written: as .osgb bytes, which keep every bit, or as .osgt text with 17 digits, which OSG 3.6.5 reads

@@ -4,6 +4,8 @@
 #include <osg/Array>
 #include <osg/PrimitiveSet>
 
+#include "generated/stillframe_nodes/shaders.h"
+#include "nodes/flat_order.h"
 #include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
@@ -69,14 +71,21 @@ osg::ref_ptr<osg::Vec3Array> gridVertices(const GridLayer::Settings& settings) {
 
 std::unique_ptr<scenegraph::Layer> GridLayer::create(std::string_view) { return std::make_unique<GridLayer>(); }
 
-GridLayer::GridLayer() = default;
+GridLayer::GridLayer()
+    : color_(new osg::Uniform("u_color", osg::Vec4())), normal_(new osg::Uniform("u_normal", osg::Vec3(0, 0, 1))) {}
 
 void GridLayer::attach(const scenegraph::LayerContext& context) {
   context_.emplace(context);
   geometry_ = scenegraph::makeGeometry();
   geometry_->setName("grid");
   geometry_->setNodeMask(scenegraph::kReference);
-  geometry_->setStateSet(lines_.stateSet());
+  namespace shaders = shaders::stillframe_nodes;
+  osg::StateSet& state = *geometry_->getOrCreateStateSet();
+  state.setAttributeAndModes(
+      scenegraph::makeProgram("reference_grid", shaders::k_reference_grid_vert, shaders::k_reference_grid_frag));
+  state.addUniform(color_);
+  state.addUniform(normal_);
+  state.addUniform(new osg::Uniform("u_depth_step", flatDepthStep(FlatKind::ReferenceGrid, 0, 1)));
   applied_.reset();
 }
 
@@ -102,8 +111,12 @@ void GridLayer::applyChanges() {
     geometry_->removePrimitiveSet(0, geometry_->getNumPrimitiveSets());
     geometry_->addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, static_cast<GLsizei>(vertices->size())));
     geometry_->dirtyBound();
+    const auto [a, b] = sides(settings_.plane);
+    osg::Vec3 normal;
+    normal[3 - a - b] = 1.0F;
+    normal_->set(normal);
   }
-  lines_.setColor(settings_.color);
+  color_->set(osg::Vec4(settings_.color.r, settings_.color.g, settings_.color.b, 1.0F));
   applied_ = settings_;
 }
 

@@ -4,12 +4,11 @@
 #include <memory>
 #include <optional>
 #include <osg/Geometry>
-#include <osg/MatrixTransform>
+#include <osg/Uniform>
 #include <osg/ref_ptr>
 #include <string>
 #include <string_view>
 
-#include "nodes/line_state.h"
 #include "scenegraph/layer.h"
 
 namespace stillframe::nodes {
@@ -17,7 +16,8 @@ namespace stillframe::nodes {
 /// The reference grid (REQUIREMENTS C12): lines on a plane through the origin of the fixed frame.
 ///
 /// Hangs beneath the node of the fixed frame, or beneath the root while there is no frame at all. Costs nothing per
-/// tick; a change of size, count or plane rewrites some dozens of vertices, the colour is a uniform. GUI thread.
+/// tick; a change of size, count or plane rewrites some dozens of vertices, the colour is a uniform. Of what lies in
+/// its plane, lines are drawn over it and all else beneath it (flat_order.h). GUI thread.
 class GridLayer final : public scenegraph::Layer {
  public:
   struct Settings {
@@ -60,7 +60,8 @@ class GridLayer final : public scenegraph::Layer {
   std::optional<scenegraph::LayerContext> context_;
   std::optional<std::string> held_frame_;  // of the node acquired; "" while hanging beneath the root
   osg::ref_ptr<osg::Geometry> geometry_;
-  LineState lines_;
+  osg::ref_ptr<osg::Uniform> color_;
+  osg::ref_ptr<osg::Uniform> normal_;  // of the plane
 };
 
 }  // namespace stillframe::nodes

@@ -82,9 +82,10 @@ TEST_F(GridTilesTest, HoldsTheCellsOfTheStateAfterAnyWay) {
   }
 }
 
-TEST(FlatOrder, PutsLinesBeforeGridMapsBeforeOccupancyGrids) {
+TEST(FlatOrder, PutsLinesBeforeTheReferenceGridBeforeGridMapsBeforeOccupancyGrids) {
   for (const std::uint32_t count : {1U, 2U, 5U, 40U}) {
-    float before = 0.0F;  // of lines
+    float before = nodes::flatDepthStep(FlatKind::ReferenceGrid, 0, 1);
+    EXPECT_GT(before, 0.0F) << "of lines";
     for (const FlatKind kind : {FlatKind::GridMap, FlatKind::OccupancyGrid}) {
       for (std::uint32_t place = count; place-- > 0;) {  // the last in the list is the foremost
         const float step = nodes::flatDepthStep(kind, place, count);

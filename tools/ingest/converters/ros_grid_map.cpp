@@ -1,6 +1,7 @@
 // grid_map_msgs/GridMap: layers of a ring buffer whose indices grow against x and y, turned into records by cell.
-#include <cmath>
-#include <cstring>
+#include <memory>
+#include <span>
+#include <vector>
 
 #include "scenegraph/objects/grid_map.h"
 #include "tools/ingest/converters/converters.h"
@@ -42,7 +43,6 @@ struct LayerSize {
   std::uint32_t rows = 0;
   std::uint32_t columns = 0;
   bool is_row_major = false;
-  friend bool operator==(const LayerSize&, const LayerSize&) = default;
 };
 
 std::unexpected<scenegraph::DecodeError> bad(std::string message) {
@@ -63,17 +63,22 @@ std::expected<LayerSize, scenegraph::DecodeError> sizeOf(const LayerRow& layer, 
   return LayerSize{is_row_major ? outer : inner, is_row_major ? inner : outer, is_row_major};
 }
 
-/// Writes one layer into every record; `out` is its first value.
-void interleave(const GridMapRow& row, const LayerRow& layer, const LayerSize& size, std::size_t record_floats,
-                float* out) {
-  const float* values = layer.values.data() + layer.data_offset;
-  for (std::uint32_t y = 0; y < size.columns; ++y) {
-    const std::uint32_t column = (size.columns - 1 - y + row.inner_start) % size.columns;
-    for (std::uint32_t x = 0; x < size.rows; ++x) {
-      const std::uint32_t line = (size.rows - 1 - x + row.outer_start) % size.rows;
-      *out = values[size.is_row_major ? std::size_t{line} * size.columns + column
-                                      : std::size_t{column} * size.rows + line];
-      out += record_floats;
+/// Writes a row of records, whose cells lie along x, one layer after the other. `column` is the row's in grid_map.
+void interleave(const GridMapRow& row, std::span<const LayerSize> sizes, std::uint32_t column, float* records) {
+  const std::size_t layers = sizes.size();
+  for (std::size_t i = 0; i < layers; ++i) {
+    const LayerSize& size = sizes[i];
+    const std::size_t step = size.is_row_major ? size.columns : 1;
+    const float* const values = row.data[i].values.data() + row.data[i].data_offset +
+                                (size.is_row_major ? std::size_t{column} : std::size_t{column} * size.rows);
+    // Backwards from the last line of the ring to line 0, and on from the other end.
+    const std::uint32_t last = (size.rows - 1 + row.outer_start) % size.rows;
+    float* out = records + i;
+    for (std::size_t line = std::size_t{last} + 1; line-- > 0; out += layers) {
+      *out = values[line * step];
+    }
+    for (std::size_t line = size.rows; line-- > std::size_t{last} + 1; out += layers) {
+      *out = values[line * step];
     }
   }
 }
@@ -84,6 +89,7 @@ RowDecoder<GridMapRow>::Result convert(GridMapRow& row, const MessageView&) {
     return bad(sentence("the grid map names ", layers, " layers and holds ", row.data.size()));
   }
   LayerSize size;
+  std::vector<LayerSize> sizes;
   for (std::size_t i = 0; i < layers; ++i) {
     const auto layer_size = sizeOf(row.data[i], row.layers[i]);
     if (!layer_size) {
@@ -94,6 +100,7 @@ RowDecoder<GridMapRow>::Result convert(GridMapRow& row, const MessageView&) {
                           " cells, the first ", size.rows, " x ", size.columns));
     }
     size = *layer_size;
+    sizes.push_back(size);
   }
   // The start indices are 16-bit on the wire and the sizes are justified by the values that are there.
   if (size.rows > 0 && size.columns > 0 && (row.outer_start >= size.rows || row.inner_start >= size.columns)) {
@@ -122,8 +129,10 @@ RowDecoder<GridMapRow>::Result convert(GridMapRow& row, const MessageView&) {
   for (std::size_t i = 0; i < layers; ++i) {
     map.fields.push_back(
         {std::string(row.layers[i]), static_cast<std::uint32_t>(i * sizeof(float)), scenegraph::FieldType::Float32, 1});
-    const auto layer_size = sizeOf(row.data[i], row.layers[i]);
-    interleave(row, row.data[i], *layer_size, layers, records.get() + i);
+  }
+  for (std::uint32_t y = 0; y < size.columns && size.rows > 0; ++y) {
+    interleave(row, sizes, (size.columns - 1 - y + row.inner_start) % size.columns,
+               records.get() + std::size_t{y} * size.rows * layers);
   }
   map.data = {std::as_bytes(std::span(records.get(), floats)), records};
   return finished(std::move(map));

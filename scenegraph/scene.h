@@ -73,7 +73,8 @@ class Scene {
   LayerSlot& duplicateLayer(const LayerSlot& original);
   void removeLayer(std::string_view id);
   /// Puts the layers of these ids in front, in this order, and leaves the others as they are; unknown ids do nothing.
-  /// Of flat things in one plane the later layer covers the earlier; of what has the very same depth the earlier is seen.
+  /// Of flat things in one plane the later layer covers the earlier; of what has the very same depth the earlier is
+  /// seen.
   void arrangeLayers(std::span<const std::string> ids);
   [[nodiscard]] LayerSlot* findLayer(std::string_view id);
   [[nodiscard]] const std::vector<std::unique_ptr<LayerSlot>>& layers() const noexcept { return layers_; }

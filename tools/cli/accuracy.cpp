@@ -26,7 +26,7 @@ using accuracy::AccuracyReport;
 
 struct AccuracyOptions {
   std::string subject = "tf";
-  std::string file;
+  RecordingOptions recording;
   std::string folder;
 };
 
@@ -38,9 +38,9 @@ Result<AccuracyReport> reportOfDepth(const AccuracyOptions& /*options*/) { retur
 Result<AccuracyReport> reportOfPoints(const AccuracyOptions& options) {
   const TemporarySample sample;
   ViewOptions view;
-  view.recording.file = options.file;
-  std::string what = printable(options.file);
-  if (options.file.empty()) {
+  view.recording = options.recording;
+  std::string what = printable(options.recording.file);
+  if (options.recording.file.empty()) {
     view.recording.file = sample.path().string();
     what = "The sample recording with large clouds";
     constexpr sample::SampleOptions kLargeClouds{.duration_ns = 150'000'000, .lidar_points = 1'000'000};
@@ -110,9 +110,9 @@ constexpr std::array kSubjects{
 
 Result<void> runAccuracy(const AccuracyOptions& options) {
   const auto* const subject = std::ranges::find(kSubjects, options.subject, &Subject::name);
-  if (!options.file.empty() && !subject->takes_file) {
-    return usageError("accuracy " + options.subject + " is measured on no recording; '" + printable(options.file) +
-                      "' is one too many");
+  if (!options.recording.file.empty() && !subject->takes_file) {
+    return usageError("accuracy " + options.subject + " is measured on no recording; '" +
+                      printable(options.recording.file) + "' is one too many");
   }
   if (!options.folder.empty()) {  // said now, not after minutes of measuring
     std::error_code failed;
@@ -148,7 +148,8 @@ Command addAccuracyCommand(CLI::App& app) {
     names.emplace_back(subject.name);
   }
   app.add_option("SUBJECT", options->subject, help)->check(CLI::IsMember(names))->capture_default_str();
-  app.add_option("FILE", options->file, "A recording to measure on, where the subject takes one");
+  app.add_option("FILE", options->recording.file, "A recording to measure on, where the subject takes one");
+  addTransformOptions(app, options->recording);
   app.add_option("--out", options->folder, "Folder for the table and an SVG plot of error against run time");
   return [options] { return runAccuracy(*options); };
 }

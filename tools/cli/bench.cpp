@@ -23,7 +23,7 @@ namespace stillframe::cli {
 namespace {
 
 struct BenchOptions {
-  std::string file;
+  RecordingOptions recording;
   std::vector<std::string> only;
   std::vector<std::string> table;
   bool is_scrub = false;
@@ -79,9 +79,10 @@ std::vector<double> scrub(SceneSession& session, const std::vector<tf::TimePoint
   return ticks_ms;
 }
 
-Result<void> benchRecording(const std::string& file, std::vector<BenchResult>& results, std::string& renderer_name) {
+Result<void> benchRecording(const RecordingOptions& recording, std::vector<BenchResult>& results,
+                            std::string& renderer_name) {
   ViewOptions options;
-  options.recording.file = file;
+  options.recording = recording;
   std::unique_ptr<SceneSession> session;
   std::unique_ptr<scenegraph::OffscreenRenderer> renderer;
   Result<void> done;
@@ -90,7 +91,7 @@ Result<void> benchRecording(const std::string& file, std::vector<BenchResult>& r
     const scenegraph::RenderOptions picture{options.size.width_px, options.size.height_px, options.background};
     const auto drawn = renderer->render(session->scene().root(), session->camera(), picture);
     if (!drawn) {
-      return std::unexpected(fileError(file, drawn.error()));
+      return std::unexpected(fileError(recording.file, drawn.error()));
     }
     frames_ms.push_back(renderer->lastFrame().frame_ms);
     return {};
@@ -109,7 +110,7 @@ Result<void> benchRecording(const std::string& file, std::vector<BenchResult>& r
   const double first_s = secondsOf([&] {
     auto created = scenegraph::OffscreenRenderer::create();
     if (!created) {
-      done = std::unexpected(fileError(file, created.error()));
+      done = std::unexpected(fileError(recording.file, created.error()));
       return;
     }
     renderer = std::move(*created);
@@ -197,15 +198,15 @@ Json toJson(const std::vector<BenchResult>& results, const Machine& machine) {
 }
 
 /// Of the file, or of a sample made for it.
-Result<void> benchFile(std::string file, bool with_recording, bool with_views, std::vector<BenchResult>& results,
-                       std::string& renderer) {
+Result<void> benchFile(RecordingOptions recording, bool with_recording, bool with_views,
+                       std::vector<BenchResult>& results, std::string& renderer) {
   const TemporarySample sample;
-  if (file.empty()) {
-    file = sample.path().string();
+  if (recording.file.empty()) {
+    recording.file = sample.path().string();
     std::optional<CliError> failed;
     const double made_s = secondsOf([&] {
       if (const auto report = sample::writeSample(sample.path(), {}); !report) {
-        failed = fileError(file, report.error());
+        failed = fileError(recording.file, report.error());
       }
     });
     if (failed) {
@@ -214,11 +215,11 @@ Result<void> benchFile(std::string file, bool with_recording, bool with_views, s
     results.push_back({"sample recording of 10 s, made", made_s * 1e3, "ms", 2000.0});
   }
   if (with_recording) {
-    if (const auto done = benchRecording(file, results, renderer); !done) {
+    if (const auto done = benchRecording(recording, results, renderer); !done) {
       return done;
     }
   }
-  return with_views ? benchViews(file, results) : Result<void>{};
+  return with_views ? benchViews(recording, results) : Result<void>{};
 }
 
 Result<void> runBench(const BenchOptions& options) {
@@ -240,14 +241,15 @@ Result<void> runBench(const BenchOptions& options) {
                   .memcpy_mb_per_s = memcpyMbPerS(),
                   .version = STILLFRAME_VERSION " (" STILLFRAME_COMMIT ")"};
   if (options.is_scrub) {
-    if (options.file.empty()) {
+    if (options.recording.file.empty()) {
       return usageError("--scrub drags through a recording: name one");
     }
-    if (const auto done = benchScrub(options.file, results); !done) {
+    if (const auto done = benchScrub(options.recording, results); !done) {
       return done;
     }
   } else if (isChosen(kRecording) || isChosen(kViews)) {
-    if (const auto done = benchFile(options.file, isChosen(kRecording), isChosen(kViews), results, machine.renderer);
+    if (const auto done =
+            benchFile(options.recording, isChosen(kRecording), isChosen(kViews), results, machine.renderer);
         !done) {
       return done;
     }
@@ -274,7 +276,8 @@ Result<void> runBench(const BenchOptions& options) {
 
 Command addBenchCommand(CLI::App& app) {
   auto options = std::make_shared<BenchOptions>();
-  app.add_option("FILE", options->file, "The recording to measure with; default: the sample recording");
+  app.add_option("FILE", options->recording.file, "The recording to measure with; default: the sample recording");
+  addTransformOptions(app, options->recording);
   std::vector<std::string> names{kRecording, kViews};
   for (const auto& [name, measure] : kGroups) {
     names.emplace_back(name);

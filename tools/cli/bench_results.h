@@ -10,6 +10,7 @@
 
 #include "scenegraph/stopwatch.h"
 #include "tools/cli/cli_error.h"
+#include "tools/cli/recording_options.h"
 
 namespace stillframe::cli {
 
@@ -77,9 +78,9 @@ void benchPoints(std::vector<BenchResult>& results);
 void benchTicks(std::vector<BenchResult>& results);
 /// The slider of a recording dragged there and back, twice: from a position to its picture, and what keeps the thread
 /// of the window. Opening it, beside reading what that needs.
-[[nodiscard]] Result<void> benchScrub(const std::string& file, std::vector<BenchResult>& results);
+[[nodiscard]] Result<void> benchScrub(const RecordingOptions& options, std::vector<BenchResult>& results);
 /// Memory and time of 1, 2 and 4 views of one recording, each in a fixed frame of its own.
-[[nodiscard]] Result<void> benchViews(const std::string& file, std::vector<BenchResult>& results);
+[[nodiscard]] Result<void> benchViews(const RecordingOptions& options, std::vector<BenchResult>& results);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
 

@@ -139,12 +139,6 @@ void report(std::vector<BenchResult>& results, const std::string& name, const st
   line("frame, on the window's thread", &Step::frame_ms, 1.3 * kBudgetMs);
 }
 
-RecordingOptions optionsOf(const std::string& file) {
-  RecordingOptions options;
-  options.file = file;
-  return options;
-}
-
 /// The first instant at which every topic of clouds has a message; nullopt when none ever has.
 std::optional<tf::TimePoint> firstInstant(const scenegraph::ObjectStore& store) {
   std::optional<tf::TimePoint> first;
@@ -159,10 +153,10 @@ std::optional<tf::TimePoint> firstInstant(const scenegraph::ObjectStore& store) 
 
 /// What the clouds of that instant cost to read and unpack, by a recording of its own, on as many threads as a window
 /// has for it.
-Result<double> readingMs(const std::string& file, tf::TimePoint time) {
+Result<double> readingMs(const RecordingOptions& options, tf::TimePoint time) {
   const auto executor = scenegraph::makeThreadPoolExecutor(std::max(2U, std::thread::hardware_concurrency()) - 1U);
   const Clock::time_point start = Clock::now();
-  const auto recording = openRecording(optionsOf(file));
+  const auto recording = openRecording(options);
   if (!recording) {
     return std::unexpected(recording.error());
   }
@@ -179,32 +173,32 @@ Result<double> readingMs(const std::string& file, tf::TimePoint time) {
 
 }  // namespace
 
-Result<void> benchScrub(const std::string& file, std::vector<BenchResult>& results) {
+Result<void> benchScrub(const RecordingOptions& options, std::vector<BenchResult>& results) {
   auto renderer = scenegraph::OffscreenRenderer::create();
   if (!renderer) {
     return failure(renderer.error().message);
   }
   // The file into the memory of the system, for all that follow alike.
-  auto warm = openRecording(optionsOf(file));
+  auto warm = openRecording(options);
   if (!warm) {
     return std::unexpected(warm.error());
   }
   const auto range = (*warm)->dataset()->timeRange();
   const auto first_time = firstInstant((*warm)->dataset()->store());
   if (!range || !first_time) {
-    return failure(file + ": the recording holds no clouds");
+    return failure(options.file + ": the recording holds no clouds");
   }
-  if (const auto read = readingMs(file, *first_time); !read) {
+  if (const auto read = readingMs(options, *first_time); !read) {
     return std::unexpected(read.error());
   }
-  const auto reading_ms = readingMs(file, *first_time);
+  const auto reading_ms = readingMs(options, *first_time);
   if (!reading_ms) {
     return std::unexpected(reading_ms.error());
   }
   warm->reset();
   const double heap_before_mib = heapMib();
   const Clock::time_point opening = Clock::now();
-  auto recording = openRecording(optionsOf(file));
+  auto recording = openRecording(options);
   if (!recording) {
     return std::unexpected(recording.error());
   }

@@ -101,9 +101,7 @@ Result<ViewCosts> measure(const RecordingOptions& options, std::size_t count) {
 
 }  // namespace
 
-Result<void> benchViews(const std::string& file, std::vector<BenchResult>& results) {
-  RecordingOptions options;
-  options.file = file;
+Result<void> benchViews(const RecordingOptions& options, std::vector<BenchResult>& results) {
   if (const auto warm = measure(options, 1); !warm) {  // what is loaded once is loaded now
     return std::unexpected(warm.error());
   }

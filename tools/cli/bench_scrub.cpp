@@ -222,7 +222,7 @@ Result<void> benchScrub(const RecordingOptions& options, std::vector<BenchResult
     const Clock::time_point begun = Clock::now();
     int turned_at = kPositions;
     for (int i = 0; i < 2 * turned_at; ++i) {
-      if (turned_at == kPositions && milliseconds(Clock::now() - begun) > 500.0 * kLongestRoundS) {
+      if (turned_at == kPositions && scenegraph::millisecondsSince(begun) > 500.0 * kLongestRoundS) {
         turned_at = std::min(i, kPositions);
       }
       const int position = i < turned_at ? i : 2 * turned_at - 1 - i;  // there, and back

@@ -47,7 +47,9 @@ if(STILLFRAME_FUZZ)
 endif()
 
 # A test runs about once for each time it is compiled.
-set(STILLFRAME_TEST_OPTIONS "$<$<NOT:$<BOOL:${STILLFRAME_SANITIZE}>>:-O1>")
+if(NOT STILLFRAME_SANITIZE)
+  set(STILLFRAME_TEST_OPTIONS -O1)
+endif()
 
 # stillframe_library(NAME SOURCES ... LINKS ... [PRECOMPILED HEADERS...]): a static library of one room.
 function(stillframe_library name)

@@ -87,9 +87,11 @@ void writePositions(const float* heights, std::span<const float> x, float y, flo
 /// ends.
 void writeNormals(const float* heights, const float* before, const float* after, std::size_t columns,
                   const CellScale& scale, std::int8_t* out) {
+  const float* const left = heights - 1;
+  const float* const right = heights + 1;
   for (std::size_t i = 0; i < columns; ++i, out += 4) {
     const bool is_drawn = isHeight(heights[i]);
-    const float x = is_drawn ? slopeAt(heights[i], heights[i - 1], heights[i + 1], scale.x) : 0.0F;
+    const float x = is_drawn ? slopeAt(heights[i], left[i], right[i], scale.x) : 0.0F;
     const float y = is_drawn ? slopeAt(heights[i], before[i], after[i], scale.y) : 0.0F;
     const float size = 127.0F / std::sqrt(x * x + y * y + 1.0F);
     out[0] = rounded(-x * size);

@@ -22,10 +22,10 @@ bool isSameByBits(const tf::RigidTransform& a, const tf::RigidTransform& b) {
 }
 
 template <typename Key>
-void sortChildren(osg::Group& group, const Key& keyOf) {
-  std::vector<std::pair<decltype(keyOf(nullptr)), osg::ref_ptr<osg::Node>>> sorted;
+void sortChildren(osg::Group& group, const Key& key_of) {
+  std::vector<std::pair<decltype(key_of(nullptr)), osg::ref_ptr<osg::Node>>> sorted;
   for (unsigned i = 0; i < group.getNumChildren(); ++i) {
-    sorted.emplace_back(keyOf(group.getChild(i)), group.getChild(i));
+    sorted.emplace_back(key_of(group.getChild(i)), group.getChild(i));
   }
   using Keyed = typename decltype(sorted)::value_type;
   if (std::ranges::is_sorted(sorted, {}, &Keyed::first)) {

@@ -139,7 +139,7 @@ void IdPass::castRays(const View& view, std::size_t first, std::vector<gl::IdTar
                       view.height_px);
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
-        const auto place = static_cast<std::size_t>(y * side + x);
+        const auto place = static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x);
         if (ids[place][0] != 0 && isOnTop(drawables_[ids[place][0] - 1].path)) {
           continue;
         }

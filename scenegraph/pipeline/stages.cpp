@@ -67,6 +67,7 @@ osg::ref_ptr<osg::Camera> makeTargetCamera(int order, int width_px, int height_p
 }
 
 /// Hands the blended things that were culled to `transparency`.
+// NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): OSG counts references
 class AdoptBlended : public osg::NodeCallback {
  public:
   explicit AdoptBlended(const osg::ref_ptr<Transparency>& transparency) : transparency_(transparency) {}

@@ -22,6 +22,7 @@ namespace stillframe::scenegraph {
 /// costs nothing: not a target, not a shader. With them 16 bytes a fragment, from 4 MiB to 256 MiB; a picture with more
 /// is drawn in bands. The nearest fragments of a sample are exact, beyond BlendLimits the rest counts by its mean:
 /// `stillframe accuracy transparency` has the curve. A wait for the GPU a frame. Thread of the context only.
+// NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): OSG counts references
 class Transparency : public osgUtil::RenderBin::DrawCallback {
  public:
   /// `depths`: the target of the scene's depth, with as many samples.

@@ -25,13 +25,16 @@ SceneDock::SceneDock(DockContext& context, QWidget* parent) : QWidget(parent), c
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
+  // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): after what it stands on
   messages_ = new MessageBar(this);
   layout->addWidget(messages_);
+  // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): after what it stands on
   choice_ = new QComboBox(this);
   choice_->setObjectName(QStringLiteral("dataset"));
   choice_->setToolTip(tr("The recording or stream that this view shows"));
   choice_->hide();
   layout->addWidget(choice_);
+  // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): after what it stands on
   panel_ = new ViewPanel(this);
   panel_->setFrameMemory(context_.frameMemory());
   panel_->setArrangeable(false);

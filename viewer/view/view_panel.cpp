@@ -78,6 +78,7 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   effects_->setObjectName(QStringLiteral("effectPanel"));
   effects_->setVisible(false);
   view_ = new SceneWidget(splitter_);
+  // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): after what it stands on
   legend_ = new LegendOverlay(*view_);
   camera_bar_ = new CameraBar(*view_, bar);
   place_of_camera_bar->addWidget(camera_bar_);

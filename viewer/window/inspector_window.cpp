@@ -82,6 +82,7 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   addDockWidget(Qt::RightDockWidgetArea, dock);
   resizeDocks({dock}, {kFrameTreeWidth}, Qt::Horizontal);
 
+  // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): after what it stands on
   inspect_ = new InspectDock(*this);
 
   progress_->setObjectName(QStringLiteral("progress"));

@@ -85,6 +85,7 @@ PictureRequest PictureDialog::request() const {
           .has_picks = picks_->isChecked()};
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): kept by the actions
 void addPictureActions(QMenu& menu, QMainWindow& window, PictureSaver& saver, std::function<ViewPanel&()> shown_view) {
   const auto ask_for_file = [&window](const QString& kinds) {
     QFileDialog dialog(&window, QObject::tr("Save picture"), {}, kinds);

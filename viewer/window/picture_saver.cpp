@@ -5,6 +5,7 @@
 #include <QPointer>
 #include <QTimer>
 #include <QWidget>
+#include <cstddef>
 #include <filesystem>
 #include <utility>
 
@@ -59,7 +60,8 @@ void PictureSaver::saveWindow(QWidget& window, const QString& file) {
   const QImage image = window.grab().toImage().convertToFormat(QImage::Format_RGB888);
   scenegraph::BytePicture picture{.width = image.width(), .height = image.height(), .rgb = {}};
   for (int y = 0; y < image.height(); ++y) {
-    picture.rgb.insert(picture.rgb.end(), image.constScanLine(y), image.constScanLine(y) + 3 * image.width());
+    picture.rgb.insert(picture.rgb.end(), image.constScanLine(y),
+                       image.constScanLine(y) + std::ptrdiff_t{3} * image.width());
   }
   write([shared = std::make_shared<const scenegraph::BytePicture>(std::move(picture)),
          path = std::filesystem::path(file.toStdString())] { return scenegraph::writePng(*shared, path); },

@@ -33,8 +33,7 @@ GlyphCanvas::GlyphCanvas(int width, int height)
 void GlyphCanvas::fill(int left, int top, int right, int bottom, const PixelColor& color) {
   for (int y = std::max(0, top); y < std::min(bottom, height_); ++y) {
     for (int x = std::max(0, left); x < std::min(right, width_); ++x) {
-      std::uint8_t* const pixel =
-          &pixels_[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x))];
+      std::uint8_t* const pixel = at(x, y);
       pixel[0] = color.r;
       pixel[1] = color.g;
       pixel[2] = color.b;
@@ -51,9 +50,7 @@ void GlyphCanvas::fillRounded(const PixelColor& color, double radius) {
       const double dx = std::max({radius - (x + 0.5), x + 0.5 - (width_ - radius), 0.0});
       const double dy = std::max({radius - (y + 0.5), y + 0.5 - (height_ - radius), 0.0});
       const double share = std::clamp(radius + 0.5 - std::hypot(dx, dy), 0.0, 1.0);
-      std::uint8_t& alpha =
-          pixels_[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) +
-                  3];
+      std::uint8_t& alpha = at(x, y)[3];
       alpha = static_cast<std::uint8_t>(std::lround(alpha * share));
     }
   }
@@ -63,8 +60,7 @@ void GlyphCanvas::blend(int x, int y, const PixelColor& color, double share) {
   if (x < 0 || y < 0 || x >= width_ || y >= height_ || share <= 0.0) {
     return;
   }
-  std::uint8_t* const pixel =
-      &pixels_[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x))];
+  std::uint8_t* const pixel = at(x, y);
   const double above = share * color.a / 255.0;
   const double below = pixel[3] / 255.0 * (1.0 - above);
   const double alpha = above + below;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <osg/ref_ptr>
 #include <osgText/Font>
@@ -40,6 +41,10 @@ class GlyphCanvas {
   [[nodiscard]] std::string shortened(std::string_view utf8, double height, double most);
 
  private:
+  /// The four bytes of a pixel that lies within.
+  [[nodiscard]] std::uint8_t* at(int x, int y) {
+    return &pixels_[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x))];
+  }
   void blend(int x, int y, const PixelColor& color, double share);
   [[nodiscard]] osgText::Glyph* glyph(unsigned code, double height);
 

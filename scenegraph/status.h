@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <expected>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "tf/time.h"
 
@@ -28,6 +30,11 @@ struct Status {
 
   friend bool operator==(const Status&, const Status&) = default;
 };
+
+/// What a function returns that cannot do what it was asked for.
+[[nodiscard]] inline std::unexpected<Status> failure(std::string code, std::string message) {
+  return std::unexpected(Status{StatusLevel::Error, std::move(code), std::move(message)});
+}
 
 /// "ok", "info", "warn", "error".
 [[nodiscard]] std::string_view toString(StatusLevel level) noexcept;

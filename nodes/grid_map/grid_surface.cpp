@@ -1,4 +1,5 @@
 #include "nodes/grid_map/grid_surface.h"
+#include "nodes/texel_formats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +11,6 @@
 
 namespace stillframe::nodes {
 namespace {
-
-constexpr GLint kR32f = 0x822E;  // OSG's headers name it only for some profiles
-constexpr GLint kRgba8 = 0x8058;
 
 osg::ref_ptr<osg::Texture2D> makeTexture(const scenegraph::GridMap& map, GLint internal_format, GLenum format,
                                          GLenum type) {

@@ -12,7 +12,7 @@ using scenegraph::GridMap;
 using scenegraph::Status;
 using scenegraph::StatusLevel;
 
-Status malformed(std::string message) { return {StatusLevel::Error, "MalformedGrid", std::move(message)}; }
+Status malformedMap(std::string message) { return {StatusLevel::Error, "MalformedGrid", std::move(message)}; }
 
 std::string sizeText(const GridMap& map) {
   return std::to_string(map.column_count) + " x " + std::to_string(map.row_count) + " cells";
@@ -24,8 +24,8 @@ std::optional<Status> findFault(const GridMap& map) {
   };
   if (!isSize(map.cell_size_m.x, std::max(map.column_count, 1U)) ||
       !isSize(map.cell_size_m.y, std::max(map.row_count, 1U)) || !tf::isFinite(map.origin)) {
-    return malformed("cells of " + std::to_string(map.cell_size_m.x) + " x " + std::to_string(map.cell_size_m.y) +
-                     " m cannot be placed, or the origin is not finite");
+    return malformedMap("cells of " + std::to_string(map.cell_size_m.x) + " x " + std::to_string(map.cell_size_m.y) +
+                        " m cannot be placed, or the origin is not finite");
   }
   if (map.column_count > kMaxMapSide || map.row_count > kMaxMapSide ||
       std::uint64_t{map.column_count} * map.row_count > kMaxMapCells) {
@@ -39,10 +39,10 @@ std::optional<Status> findFault(const GridMap& map) {
                                    : std::uint64_t{map.row_count - 1} * map.row_stride +
                                          std::uint64_t{map.column_count - 1} * map.cell_stride + *record;
   if (!record || needed > map.data.bytes.size()) {
-    return malformed("the map of " + sizeText(map) + " with strides of " + std::to_string(map.row_stride) + " and " +
-                     std::to_string(map.cell_stride) + " bytes needs " +
-                     (record ? std::to_string(needed) : "more than 2^32") + " bytes, it has " +
-                     std::to_string(map.data.bytes.size()));
+    return malformedMap("the map of " + sizeText(map) + " with strides of " + std::to_string(map.row_stride) + " and " +
+                        std::to_string(map.cell_stride) + " bytes needs " +
+                        (record ? std::to_string(needed) : "more than 2^32") + " bytes, it has " +
+                        std::to_string(map.data.bytes.size()));
   }
   return std::nullopt;
 }

@@ -18,11 +18,11 @@ constexpr double kDesignHeight = 720.0;  // of a picture in which things have th
 // In units of the design: pixels at scale 1.
 constexpr double kMargin = 10.0;
 constexpr double kRingRadius = 7.0;
-constexpr double kTextHeight = 13.0;
+constexpr double kLineHeight = 13.0;
 constexpr double kTextPadding = 5.0;
-constexpr double kCorner = 3.0;
+constexpr double kLineCorner = 3.0;
 constexpr std::array kStrokes{std::pair(PixelColor{0, 0, 0, 170}, 4.0), std::pair(PixelColor{255, 214, 64, 255}, 1.6)};
-constexpr PixelColor kCard{20, 22, 26, 200};
+constexpr PixelColor kLineCard{20, 22, 26, 200};
 
 /// What of a straight line lies within a box about the picture; lines may reach very far beyond it.
 std::optional<std::pair<glm::dvec2, glm::dvec2>> clipped(const glm::dvec2& from, const glm::dvec2& to,
@@ -156,7 +156,7 @@ void PictureOverlay::addPicks(const scenegraph::PlacedPicks& picks) {
 
 void PictureOverlay::addLength(const scenegraph::PlacedPicks::Line& line) {
   const glm::dvec2 middle = (line.from_px + line.to_px) / 2.0;
-  const double text_height = kTextHeight * scale_;
+  const double text_height = kLineHeight * scale_;
   const double padding = kTextPadding * scale_;
   if (!(middle.x > 0.0 && middle.y > 0.0 && middle.x < width_ && middle.y < height_)) {
     return;
@@ -165,7 +165,7 @@ void PictureOverlay::addLength(const scenegraph::PlacedPicks::Line& line) {
   const int width = static_cast<int>(std::ceil(ruler.textWidth(line.text, text_height) + 2.0 * padding));
   const int height = static_cast<int>(std::ceil(text_height * 1.35 + padding));
   GlyphCanvas canvas(width, height);
-  canvas.fillRounded(kCard, kCorner * scale_);
+  canvas.fillRounded(kLineCard, kLineCorner * scale_);
   canvas.drawText(line.text, padding, text_height + padding / 2.0, text_height, kStrokes.back().first);
   lay({width, height, canvas.takePixels()}, static_cast<int>(std::lround(middle.x - width / 2.0)),
       static_cast<int>(std::lround(middle.y - 1.5 * height)));

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "nodes/points/channel.h"
+
 namespace stillframe::nodes {
 namespace {
 
@@ -11,8 +13,6 @@ constexpr unsigned kRound = 2;  // a joint: the line goes on around this point
 constexpr unsigned kStyleStep = 4;
 /// What a float tells apart, with the flags.
 constexpr std::size_t kMostStyles = (std::size_t{1} << 24U) / kStyleStep;
-/// As in cloud channels: below this a value is missing. No NaN goes into an array, for .osgt reads it back as 0.
-constexpr float kMissingValue = -3e38F;
 
 }  // namespace
 

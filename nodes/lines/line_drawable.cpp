@@ -8,6 +8,7 @@
 #include <osg/TextureBuffer>
 
 #include "generated/stillframe_nodes/shaders.h"
+#include "nodes/texel_formats.h"
 #include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
 
@@ -22,12 +23,7 @@ constexpr unsigned kPointsUnit = 0;
 constexpr unsigned kStylesUnit = 1;
 constexpr unsigned kChannelUnit = 2;
 
-// OSG's headers name them only for some profiles.
-constexpr GLint kRgba32f = 0x8814;
-constexpr GLint kR32f = 0x822E;
-constexpr GLint kRgba8 = 0x8058;
-
-enum Mode : int { kFlat = 0, kColors = 1, kValues = 2 };
+enum Mode : int { kOneColor = 0, kColors = 1, kValues = 2 };
 
 }  // namespace
 
@@ -83,7 +79,7 @@ void LineDrawable::set(const LineArrays& arrays) {
   } else if (arrays.values.valid()) {
     bind(kChannelUnit, "u_values", arrays.values, kR32f);
   }
-  mode_ = arrays.colors.valid() ? kColors : arrays.values.valid() ? kValues : kFlat;
+  mode_ = arrays.colors.valid() ? kColors : arrays.values.valid() ? kValues : kOneColor;
   coloring_.setMode(mode_, map_);
   blend();
 
@@ -164,7 +160,7 @@ std::optional<LineDrawable::SegmentHit> LineDrawable::segmentAt(const scenegraph
 }
 
 void LineDrawable::blend() {
-  const double opacity = opacity_now_ * (mode_ == kFlat ? color_alpha_ : 1.0);
+  const double opacity = opacity_now_ * (mode_ == kOneColor ? color_alpha_ : 1.0);
   const bool blends = opacity < 1.0 || has_alpha_;
   opacity_->set(static_cast<float>(opacity));
   blends_->set(blends);

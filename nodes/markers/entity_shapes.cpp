@@ -11,7 +11,6 @@ namespace {
 using scenegraph::EntityColor;
 using tf::RigidTransform;
 
-constexpr double kReach_m = 1e12;      // beyond, a cell has no number; the sun is 1.5e11 m away
 constexpr std::size_t kMostRuns = 64;  // of one entity; further cells share the frame's origin
 
 constexpr EntityColor kAxisColors[] = {{235 / 255.0F, 52 / 255.0F, 52 / 255.0F, 1.0F},

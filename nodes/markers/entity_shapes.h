@@ -12,6 +12,9 @@
 
 namespace stillframe::nodes {
 
+/// Beyond, a place is nonsense and a cell has no number: the sun is 1.5e11 m away.
+inline constexpr double kReach_m = 1e12;
+
 /// What is drawn as copies of one mesh. An arrow is two frustums, a set of axes three.
 enum class ShapeKind : std::uint8_t {
   Box,

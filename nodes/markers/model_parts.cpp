@@ -18,7 +18,6 @@ using scenegraph::ModelPrimitive;
 using scenegraph::SceneEntity;
 using scenegraph::TrianglePrimitive;
 
-constexpr double kReach_m = 1e12;
 constexpr double kLeastPlaceholder_m = 0.1;
 constexpr double kMostPlaceholder_m = 1.0;
 

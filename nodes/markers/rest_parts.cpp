@@ -17,8 +17,6 @@ using scenegraph::LineType;
 using scenegraph::SceneEntity;
 using scenegraph::TrianglePrimitive;
 
-constexpr double kReach_m = 1e12;
-
 Color toColor(const EntityColor& color) { return {color.r, color.g, color.b, color.a}; }
 
 /// The colour of a vertex: its own where there is one.

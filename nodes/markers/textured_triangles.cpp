@@ -13,6 +13,7 @@
 
 #include "nodes/images/jpeg_reader.h"
 #include "nodes/images/png_reader.h"
+#include "nodes/markers/entity_shapes.h"
 
 namespace stillframe::nodes {
 namespace {
@@ -21,8 +22,6 @@ using scenegraph::EntityColor;
 using scenegraph::Status;
 using scenegraph::StatusLevel;
 using scenegraph::TrianglePrimitive;
-
-constexpr double kReach_m = 1e12;
 
 std::expected<MeshTexture, Status> readTexture(const TrianglePrimitive& triangles, const MeshLoader& loader) {
   const bool is_in_message = !triangles.texture.bytes.empty();

@@ -27,15 +27,12 @@ namespace stillframe::nodes {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using scenegraph::failure;
 using scenegraph::Status;
 using scenegraph::StatusLevel;
 
 constexpr const char* kProgram = "stillframe-import-mesh";
 constexpr int kFirstOwnFd = 10;  // above those that the child finds its own under
-
-std::unexpected<Status> fail(std::string code, std::string message) {
-  return std::unexpected(Status{StatusLevel::Error, std::move(code), std::move(message)});
-}
 
 /// A file descriptor that is closed at the end, and in children.
 class Fd {
@@ -159,7 +156,7 @@ std::expected<pid_t, Status> spawn(const std::filesystem::path& program, const s
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   if (error != 0) {
-    return fail("NoMeshImporter", "'" + program.string() + "' cannot be started: " + std::strerror(error));
+    return failure("NoMeshImporter", "'" + program.string() + "' cannot be started: " + std::strerror(error));
   }
   return child;
 }
@@ -167,18 +164,18 @@ std::expected<pid_t, Status> spawn(const std::filesystem::path& program, const s
 std::expected<MeshData, Status> readResult(const Fd& result, std::uint64_t most) {
   struct stat status{};
   if (fstat(result.get(), &status) != 0 || status.st_size <= 0 || static_cast<std::uint64_t>(status.st_size) > most) {
-    return fail("MeshImportGarbled", "the importer ended without a result");
+    return failure("MeshImportGarbled", "the importer ended without a result");
   }
   const auto size = static_cast<std::size_t>(status.st_size);
   void* const at = mmap(nullptr, size, PROT_READ, MAP_SHARED, result.get(), 0);
   if (at == MAP_FAILED) {
-    return fail("MeshTooLarge", "there is no memory for the " + std::to_string(size) + " bytes of the mesh");
+    return failure("MeshTooLarge", "there is no memory for the " + std::to_string(size) + " bytes of the mesh");
   }
   auto mesh = readMesh({static_cast<const std::byte*>(at), size});
   munmap(at, size);
   if (!mesh) {
-    return fail("MeshImportGarbled",
-                "the importer's result is not a mesh that can be drawn (" + std::string(toString(mesh.error())) + ")");
+    return failure("MeshImportGarbled", "the importer's result is not a mesh that can be drawn (" +
+                                            std::string(toString(mesh.error())) + ")");
   }
   return std::move(*mesh);
 }
@@ -256,18 +253,18 @@ ImportLimits importLimits(std::size_t file_bytes) noexcept {
 
 std::expected<MeshData, Status> importInProcess(const ImportRequest& request) {
   if (request.bytes.empty()) {
-    return fail("MeshUnreadable", "it cannot be read: the file is empty");
+    return failure("MeshUnreadable", "it cannot be read: the file is empty");
   }
   const auto program = findMeshImporter();
   if (!program) {
-    return fail("NoMeshImporter", "the program '" + std::string(kProgram) +
-                                      "', which reads meshes, is not there; STILLFRAME_MESH_IMPORTER may name it");
+    return failure("NoMeshImporter", "the program '" + std::string(kProgram) +
+                                         "', which reads meshes, is not there; STILLFRAME_MESH_IMPORTER may name it");
   }
   const Fd mesh = memoryFile(request.bytes);
   const Fd result(memfd_create("stillframe-result", MFD_CLOEXEC));
   std::array<int, 2> ends{-1, -1};
   if (!mesh.isOpen() || !result.isOpen() || pipe2(ends.data(), O_CLOEXEC) != 0) {
-    return fail("MeshTooLarge", std::string("there is no memory to import it: ") + std::strerror(errno));
+    return failure("MeshTooLarge", std::string("there is no memory to import it: ") + std::strerror(errno));
   }
   const Fd sentence(ends[0]);
   Fd childs_sentence(ends[1]);

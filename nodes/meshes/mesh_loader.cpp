@@ -17,6 +17,7 @@
 namespace stillframe::nodes {
 namespace {
 
+using scenegraph::failure;
 using scenegraph::Status;
 using scenegraph::StatusLevel;
 
@@ -26,10 +27,6 @@ constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{2} << 30U;
 struct ImportOutcome {
   MeshLoader::Loaded loaded;
 };
-
-std::unexpected<Status> fail(std::string code, std::string message) {
-  return std::unexpected(Status{StatusLevel::Error, std::move(code), std::move(message)});
-}
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -42,11 +39,11 @@ std::expected<std::vector<std::byte>, Status> readFile(const std::filesystem::pa
   const auto size = std::filesystem::file_size(file, error);
   std::ifstream stream(file, std::ios::binary);
   if (error || !stream) {
-    return fail("MeshMissing", "'" + file.string() + "' cannot be opened");
+    return failure("MeshMissing", "'" + file.string() + "' cannot be opened");
   }
   if (size > kMaxFileBytes) {
-    return fail("MeshTooLarge", "'" + file.string() + "' has " + std::to_string(size) + " bytes, at most " +
-                                    std::to_string(kMaxFileBytes) + " are read");
+    return failure("MeshTooLarge", "'" + file.string() + "' has " + std::to_string(size) + " bytes, at most " +
+                                       std::to_string(kMaxFileBytes) + " are read");
   }
   std::vector<std::byte> bytes(size);
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
@@ -119,7 +116,7 @@ MeshLoader::Loaded MeshLoader::load(const std::string& uri, const std::filesyste
   if (found->attachment) {
     const auto payload = found->attachment->read();
     return payload ? import(payload->bytes, meshFormat(name.extension().string(), payload->bytes), *found, options)
-                   : fail("MeshMissing", "the attachment '" + name.string() + "': " + payload.error());
+                   : failure("MeshMissing", "the attachment '" + name.string() + "': " + payload.error());
   }
   const auto bytes = readFile(found->file);
   return bytes ? import(*bytes, meshFormat(name.extension().string(), *bytes), *found, options)
@@ -138,20 +135,20 @@ std::expected<std::vector<std::byte>, Status> MeshLoader::read(const std::string
   const auto payload = found->attachment->read();
   return payload ? std::expected<std::vector<std::byte>, Status>(
                        std::vector<std::byte>(payload->bytes.begin(), payload->bytes.end()))
-                 : fail("MeshMissing", "the attachment '" + found->attachment->name + "': " + payload.error());
+                 : failure("MeshMissing", "the attachment '" + found->attachment->name + "': " + payload.error());
 }
 
 std::vector<MeshLoader::Loaded> MeshLoader::loadAll(std::span<const std::string> uris,
                                                     const std::filesystem::path& named_by,
                                                     const MeshOptions& options) const {
-  std::vector<Loaded> loaded(uris.size(), fail("MeshMissing", "not loaded"));
+  std::vector<Loaded> loaded(uris.size(), failure("MeshMissing", "not loaded"));
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < uris.size(); i = next++) {
       try {
         loaded[i] = load(uris[i], named_by, options);
       } catch (const std::exception& error) {  // out of memory: on a thread of our own nobody else would catch it
-        loaded[i] = fail("MeshTooLarge", "'" + uris[i] + "' cannot be loaded: " + error.what());
+        loaded[i] = failure("MeshTooLarge", "'" + uris[i] + "' cannot be loaded: " + error.what());
       }
     }
   };
@@ -184,12 +181,12 @@ MeshLoader::Loaded MeshLoader::import(std::span<const std::byte> bytes, const st
     const std::string name = from.attachment     ? "the attachment '" + from.attachment->name + "'"
                              : from.file.empty() ? std::string("the mesh in the message")
                                                  : "'" + from.file.string() + "'";
-    return loaded ? loaded : fail(loaded.error().code, name + ": " + loaded.error().message);
+    return loaded ? loaded : failure(loaded.error().code, name + ": " + loaded.error().message);
   };
   if (const auto known = cache_.get<ImportOutcome>(key)) {
     return named(known->loaded);
   }
-  Loaded loaded = fail("MeshUnreadable", "of what format it is cannot be told");
+  Loaded loaded = failure("MeshUnreadable", "of what format it is cannot be told");
   if (!format.empty()) {
     const AttachedFolder folder =
         from.attachment && !isSelfContained(format) ? finder_.folderOf(*from.attachment) : AttachedFolder{};

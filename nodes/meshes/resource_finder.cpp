@@ -13,6 +13,7 @@ namespace stillframe::nodes {
 namespace {
 
 namespace fs = std::filesystem;
+using scenegraph::failure;
 using scenegraph::Resources;
 using scenegraph::Status;
 using scenegraph::StatusLevel;
@@ -20,10 +21,6 @@ using scenegraph::StatusLevel;
 constexpr std::size_t kMaxFolders = 20'000;
 constexpr int kMaxDepth = 6;
 constexpr int kMaxAncestors = 8;
-
-std::unexpected<Status> fail(std::string code, std::string message) {
-  return std::unexpected(Status{StatusLevel::Error, std::move(code), std::move(message)});
-}
 
 bool isFolder(const fs::path& path) {
   std::error_code ignored;
@@ -224,7 +221,7 @@ std::expected<FoundResource, Status> ResourceFinder::find(std::string_view uri, 
   const std::string_view scheme = colon == std::string_view::npos ? "" : uri.substr(0, colon);
   const std::string path = decodePercent(colon == std::string_view::npos ? uri : uri.substr(colon + 3));
   if (path.empty() || path.find('\0') != std::string::npos) {
-    return fail("MeshMissing", quoted + " names no file");
+    return failure("MeshMissing", quoted + " names no file");
   }
   for (const std::string_view name : {uri, std::string_view(path)}) {
     if (auto attachment = findAttachment(name, false)) {
@@ -239,29 +236,30 @@ std::expected<FoundResource, Status> ResourceFinder::find(std::string_view uri, 
   };
   const auto judged = [&](const fs::path& file, const fs::path& within) -> std::expected<FoundResource, Status> {
     if (!isBeneath(file, within)) {
-      return fail("PathEscapesPackage", quoted + " leads out of '" + within.string() + "'");
+      return failure("PathEscapesPackage", quoted + " leads out of '" + within.string() + "'");
     }
     return isFile(file) ? std::expected<FoundResource, Status>(FoundResource{file, within})
-                        : orAttachment(fail("MeshMissing", quoted + ": there is no file '" + file.string() + "'"));
+                        : orAttachment(failure("MeshMissing", quoted + ": there is no file '" + file.string() + "'"));
   };
   if (scheme == "package" || scheme == "model") {
     const std::string package = path.substr(0, path.find('/'));
     const auto relative = fs::path(path.substr(std::min(path.size(), package.size() + 1))).lexically_normal();
     if (package.empty() || package == "." || package == ".." || relative.is_absolute() ||
         (!relative.empty() && *relative.begin() == "..")) {
-      return fail("PathEscapesPackage", quoted + " leads out of its package");
+      return failure("PathEscapesPackage", quoted + " leads out of its package");
     }
     const auto folder = findPackage(package, scheme == "model", named_by);
     if (!folder) {
       const std::string where = listed(paths_);
-      return orAttachment(fail("UnknownPackage", quoted + ": there is no package '" + package + "' in " +
-                                                     (where.empty() ? "" : where + " or ") +
-                                                     "the ROS environment; --package-path FOLDER names where to look"));
+      return orAttachment(
+          failure("UnknownPackage", quoted + ": there is no package '" + package + "' in " +
+                                        (where.empty() ? "" : where + " or ") +
+                                        "the ROS environment; --package-path FOLDER names where to look"));
     }
     return judged((*folder / relative).lexically_normal(), folder->lexically_normal());
   }
   if (!scheme.empty() && scheme != "file") {
-    return fail("UnsupportedUri", quoted + ": files are read from the disk and the recording only");
+    return failure("UnsupportedUri", quoted + ": files are read from the disk and the recording only");
   }
   fs::path file = path;
   if (scheme == "file" && !file.is_absolute()) {
@@ -284,9 +282,9 @@ std::expected<FoundResource, Status> ResourceFinder::find(std::string_view uri, 
       return found;
     }
   }
-  return orAttachment(fail("MeshMissing", quoted + ": there is no such file " +
-                                              (named_by.empty() ? "" : "beside '" + named_by.string() + "' ") +
-                                              "and none of that name with the recording"));
+  return orAttachment(failure("MeshMissing", quoted + ": there is no such file " +
+                                                 (named_by.empty() ? "" : "beside '" + named_by.string() + "' ") +
+                                                 "and none of that name with the recording"));
 }
 
 }  // namespace stillframe::nodes

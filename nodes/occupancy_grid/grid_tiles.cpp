@@ -8,6 +8,7 @@
 #include "generated/stillframe_nodes/shaders.h"
 #include "nodes/flat_order.h"
 #include "nodes/osg_math.h"
+#include "nodes/texel_formats.h"
 #include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
 
@@ -18,7 +19,6 @@
 namespace stillframe::nodes {
 namespace {
 
-constexpr GLenum kR8 = 0x8229;  // OSG's headers name it only for some profiles
 constexpr int kBehindBin = -100;
 constexpr std::uint32_t kMostBins = 8;  // between the opaque bin, 0, and the transparent one, 10
 

@@ -8,7 +8,7 @@ namespace {
 using scenegraph::PackedField;
 using scenegraph::PointCloud;
 
-std::unexpected<CloudError> malformed(std::string message) {
+std::unexpected<CloudError> malformedCloud(std::string message) {
   return std::unexpected(CloudError{CloudErrorCode::MalformedCloud, std::move(message)});
 }
 
@@ -22,8 +22,8 @@ std::expected<void, CloudError> checkFields(const PointCloud& cloud) {
     const std::uint64_t values = field.count == 0 ? 1 : field.count;
     const std::uint64_t end = field.offset + values * scenegraph::byteSize(field.type);
     if (end > cloud.point_step) {
-      return malformed("field '" + field.name + "' ends at byte " + std::to_string(end) + " of a point of " +
-                       std::to_string(cloud.point_step) + " bytes");
+      return malformedCloud("field '" + field.name + "' ends at byte " + std::to_string(end) + " of a point of " +
+                            std::to_string(cloud.point_step) + " bytes");
     }
   }
   return {};
@@ -69,7 +69,7 @@ std::expected<CloudLayout, CloudError> checkLayout(const PointCloud& cloud) {
     return layout;
   }
   if (cloud.point_step == 0) {
-    return malformed("the point step is 0 bytes for " + stated(cloud));
+    return malformedCloud("the point step is 0 bytes for " + stated(cloud));
   }
   if (const auto fields = checkFields(cloud); !fields) {
     return std::unexpected(fields.error());
@@ -78,15 +78,15 @@ std::expected<CloudLayout, CloudError> checkLayout(const PointCloud& cloud) {
   const std::uint64_t row_bytes = std::uint64_t{cloud.width} * cloud.point_step;
   const std::uint64_t row_step = cloud.row_step == 0 ? row_bytes : cloud.row_step;
   if (cloud.height > 1 && row_step < row_bytes) {
-    return malformed("rows overlap: " + stated(cloud));
+    return malformedCloud("rows overlap: " + stated(cloud));
   }
   const std::uint64_t size = cloud.data.bytes.size();
   // row_step may be a 64-bit product here, hence the division.
   if (row_bytes > size || (cloud.height > 1 && row_step > (size - row_bytes) / (cloud.height - 1))) {
-    return malformed(stated(cloud) + " do not fit " + std::to_string(size) + " bytes of data");
+    return malformedCloud(stated(cloud) + " do not fit " + std::to_string(size) + " bytes of data");
   }
   if (std::uint64_t{cloud.width} * cloud.height > std::numeric_limits<std::int32_t>::max()) {
-    return malformed(stated(cloud) + " are more than one draw call can take");
+    return malformedCloud(stated(cloud) + " are more than one draw call can take");
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     constexpr std::string_view kNames[] = {"x", "y", "z"};

@@ -11,12 +11,9 @@
 namespace stillframe::nodes {
 namespace {
 
+using scenegraph::failure;
 using scenegraph::Status;
 using scenegraph::StatusLevel;
-
-std::unexpected<Status> fail(std::string code, std::string message) {
-  return std::unexpected(Status{StatusLevel::Error, std::move(code), std::move(message)});
-}
 
 /// Length of the well-formed UTF-8 sequence at the head of `text`; 0 for none, and for NUL.
 std::size_t sequenceLength(std::string_view text) {
@@ -94,7 +91,7 @@ class Scanner {
       }
       const std::size_t end = tagEnd(rest);
       if (end == 0) {
-        return fail("UrdfMalformed", "the XML is not well-formed: a tag is not closed");
+        return failure("UrdfMalformed", "the XML is not well-formed: a tag is not closed");
       }
       if (auto fault = take(parseTag(rest.substr(1, end - 1), at + 1))) {
         return std::unexpected(std::move(*fault));
@@ -102,7 +99,7 @@ class Scanner {
       at += end + 1;
     }
     if (elements_ == 0) {
-      return fail("NotUrdf", "the text is no XML");
+      return failure("NotUrdf", "the text is no XML");
     }
     if (auto fault = judgeTree()) {
       return std::unexpected(std::move(*fault));
@@ -121,8 +118,8 @@ class Scanner {
       if (rest.starts_with(open)) {
         const std::size_t end = rest.find(close);
         return end == std::string_view::npos
-                   ? std::expected<std::size_t, Status>(
-                         fail("UrdfMalformed", "the XML is not well-formed: '" + std::string(open) + "' is not closed"))
+                   ? std::expected<std::size_t, Status>(failure(
+                         "UrdfMalformed", "the XML is not well-formed: '" + std::string(open) + "' is not closed"))
                    : end + std::string_view(close).size();
       }
     }
@@ -132,9 +129,9 @@ class Scanner {
     const std::size_t end = rest.find_first_of("[>");
     const std::string_view declaration = rest.substr(0, end);
     if (end == std::string_view::npos || rest[end] == '[' || declaration.find("ENTITY") != std::string_view::npos) {
-      return fail("UrdfEntities",
-                  "the XML declares entities, which a robot description does not need and which can grow "
-                  "without bound when they are expanded");
+      return failure("UrdfEntities",
+                     "the XML declares entities, which a robot description does not need and which can grow "
+                     "without bound when they are expanded");
     }
     return end + 1;
   }
@@ -348,8 +345,8 @@ class Scanner {
 
 std::expected<ScannedUrdf, Status> scanUrdf(std::string_view text) {
   if (text.size() > kMaxUrdfBytes) {
-    return fail("UrdfTooLarge", "the description has " + std::to_string(text.size()) + " bytes, at most " +
-                                    std::to_string(kMaxUrdfBytes) + " are read");
+    return failure("UrdfTooLarge", "the description has " + std::to_string(text.size()) + " bytes, at most " +
+                                       std::to_string(kMaxUrdfBytes) + " are read");
   }
   return Scanner(cleanUtf8(text)).run();
 }

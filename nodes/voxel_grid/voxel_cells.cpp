@@ -11,7 +11,7 @@ using scenegraph::Status;
 using scenegraph::StatusLevel;
 using scenegraph::VoxelGrid;
 
-std::unexpected<Status> malformed(std::string message) {
+std::unexpected<Status> malformedVoxels(std::string message) {
   return std::unexpected(Status{StatusLevel::Error, "MalformedGrid", std::move(message)});
 }
 
@@ -41,8 +41,9 @@ std::optional<std::uint64_t> extent(std::uint32_t count, std::uint32_t stride, s
 
 std::expected<PackedCells, Status> readVoxelCells(const VoxelGrid& grid) {
   if (!canBePlaced(grid)) {
-    return malformed("cells of " + std::to_string(grid.cell_size_m.x) + " x " + std::to_string(grid.cell_size_m.y) +
-                     " x " + std::to_string(grid.cell_size_m.z) + " m cannot be placed, or the origin is not finite");
+    return malformedVoxels("cells of " + std::to_string(grid.cell_size_m.x) + " x " +
+                           std::to_string(grid.cell_size_m.y) + " x " + std::to_string(grid.cell_size_m.z) +
+                           " m cannot be placed, or the origin is not finite");
   }
   PackedCells cells = readPackedCells(grid.fields, grid.data);
   const bool is_empty = grid.column_count == 0 || grid.row_count == 0 || grid.slice_count == 0;
@@ -58,7 +59,7 @@ std::expected<PackedCells, Status> readVoxelCells(const VoxelGrid& grid) {
   }
   const auto record = recordBytes(grid.fields);
   if (cells.layers.empty() && !cells.colors) {
-    return malformed("none of its " + std::to_string(grid.fields.size()) + " fields has a known type");
+    return malformedVoxels("none of its " + std::to_string(grid.fields.size()) + " fields has a known type");
   }
   const auto row = record ? extent(grid.column_count, grid.cell_stride, *record) : std::nullopt;
   const auto slice = row ? extent(grid.row_count, grid.row_stride, *row) : std::nullopt;
@@ -66,11 +67,11 @@ std::expected<PackedCells, Status> readVoxelCells(const VoxelGrid& grid) {
   const std::string strides = " with strides of " + std::to_string(grid.cell_stride) + ", " +
                               std::to_string(grid.row_stride) + " and " + std::to_string(grid.slice_stride) + " bytes";
   if (!needed) {
-    return malformed("the voxels of " + sizeText(grid) + strides + " overlap");
+    return malformedVoxels("the voxels of " + sizeText(grid) + strides + " overlap");
   }
   if (*needed > grid.data.bytes.size()) {
-    return malformed("the grid of " + sizeText(grid) + strides + " needs " + std::to_string(*needed) +
-                     " bytes, it has " + std::to_string(grid.data.bytes.size()));
+    return malformedVoxels("the grid of " + sizeText(grid) + strides + " needs " + std::to_string(*needed) +
+                           " bytes, it has " + std::to_string(grid.data.bytes.size()));
   }
   cells.all.points = static_cast<std::size_t>(in_slice * grid.slice_count);
   cells.all.point_step = grid.cell_stride;

@@ -8,9 +8,6 @@
 namespace stillframe::scenegraph {
 namespace {
 
-constexpr double kMinFovRad = 1e-3;
-constexpr double kMaxFovRad = std::numbers::pi - 1e-3;
-
 /// `value` when it is a positive finite number, else `fallback`.
 double positiveOr(double value, double fallback) { return std::isfinite(value) && value > 0.0 ? value : fallback; }
 

@@ -2,8 +2,13 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <numbers>
 
 namespace stillframe::scenegraph {
+
+/// What a field of view is held to.
+inline constexpr double kMinFovRad = 1e-3;
+inline constexpr double kMaxFovRad = std::numbers::pi - 1e-3;
 
 /// Where a picture is taken from: everything the pipeline needs, in double.
 struct CameraView {

@@ -10,12 +10,9 @@
 namespace stillframe::scenegraph {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kMinRadiusM = 1e-6;
 constexpr double kMaxRadiusM = 1e9;
 constexpr double kMaxCoordinateM = 1e12;
-constexpr double kMinFovRad = 1e-3;
-constexpr double kMaxFovRad = kPi - 1e-3;
 
 }  // namespace
 
@@ -49,8 +46,8 @@ bool isFinite(const Sight& sight) {
 
 Sight inRange(Sight sight) {
   sight.focal_point = glm::clamp(sight.focal_point, -kMaxCoordinateM, kMaxCoordinateM);
-  sight.yaw_rad = std::remainder(sight.yaw_rad, 2.0 * kPi);
-  sight.pitch_rad = std::clamp(sight.pitch_rad, -kPi / 2.0, kPi / 2.0);
+  sight.yaw_rad = std::remainder(sight.yaw_rad, 2.0 * std::numbers::pi);
+  sight.pitch_rad = std::clamp(sight.pitch_rad, -std::numbers::pi / 2.0, std::numbers::pi / 2.0);
   sight.radius_m = std::clamp(sight.radius_m, kMinRadiusM, kMaxRadiusM);
   sight.vertical_fov_rad = std::clamp(sight.vertical_fov_rad, kMinFovRad, kMaxFovRad);
   return sight;
@@ -64,7 +61,8 @@ Sight lookingFrom(const glm::dvec3& eye, const glm::dvec3& target, Sight sight) 
   if (sight.radius_m > 0.0) {
     sight.pitch_rad = std::atan2(back.z, level);
     // Straight up or down: +y of the fixed frame is up in the picture, as lookAt() has it.
-    sight.yaw_rad = level > 0.0 ? std::atan2(back.y, back.x) : (back.z > 0.0 ? -kPi / 2.0 : kPi / 2.0);
+    sight.yaw_rad =
+        level > 0.0 ? std::atan2(back.y, back.x) : (back.z > 0.0 ? -std::numbers::pi / 2.0 : std::numbers::pi / 2.0);
   }
   return sight;
 }
@@ -102,7 +100,7 @@ Sight mix(const Sight& from, const Sight& to, double fraction) {
   }
   Sight sight = to;
   sight.focal_point = glm::mix(from.focal_point, to.focal_point, fraction);
-  sight.yaw_rad = from.yaw_rad + fraction * std::remainder(to.yaw_rad - from.yaw_rad, 2.0 * kPi);
+  sight.yaw_rad = from.yaw_rad + fraction * std::remainder(to.yaw_rad - from.yaw_rad, 2.0 * std::numbers::pi);
   sight.pitch_rad = std::lerp(from.pitch_rad, to.pitch_rad, fraction);
   sight.radius_m = from.radius_m * std::pow(to.radius_m / from.radius_m, fraction);
   sight.vertical_fov_rad = std::lerp(from.vertical_fov_rad, to.vertical_fov_rad, fraction);

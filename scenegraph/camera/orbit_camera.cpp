@@ -8,7 +8,6 @@
 namespace stillframe::scenegraph {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kMostStretch = 10.0;  // of a pan along the ground seen at a flat angle
 
 double metresPerPixel(const Sight& sight, double height_px) {
@@ -44,8 +43,8 @@ void OrbitCamera::carry(double yaw_rad, const glm::dvec3& translation) {
 
 void OrbitCamera::rotate(double dx_px, double dy_px, double height_px) {
   State state = state_;
-  state.yaw_rad -= dx_px * kPi / height_px;
-  state.pitch_rad += dy_px * kPi / height_px;
+  state.yaw_rad -= dx_px * std::numbers::pi / height_px;
+  state.pitch_rad += dy_px * std::numbers::pi / height_px;
   setState(state);
 }
 

@@ -8,7 +8,6 @@
 namespace stillframe::scenegraph {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kMinExtentM = 1e-6;
 constexpr double kMaxExtentM = 1e9;
 constexpr double kMinHalfDepthM = 1e4;
@@ -58,7 +57,7 @@ CameraView TopDownCamera::view() const {
 Sight TopDownCamera::sight() const {
   return inRange({.focal_point = state_.centre,
                   .yaw_rad = state_.yaw_rad,
-                  .pitch_rad = kPi / 2.0,
+                  .pitch_rad = std::numbers::pi / 2.0,
                   .radius_m = state_.vertical_extent_m / slope(state_.vertical_fov_rad),
                   .vertical_fov_rad = state_.vertical_fov_rad});
 }
@@ -83,7 +82,7 @@ void TopDownCamera::carry(double yaw_rad, const glm::dvec3& translation) {
 
 void TopDownCamera::rotate(double dx_px, double /*dy_px*/, double height_px) {
   State state = state_;
-  state.yaw_rad -= dx_px * kPi / height_px;
+  state.yaw_rad -= dx_px * std::numbers::pi / height_px;
   setState(state);
 }
 

@@ -29,7 +29,7 @@ std::vector<std::string> keysOf(const SettingTexts& texts, const std::vector<std
   return keys;
 }
 
-const std::vector<KnownElement>& knownElements() {
+const std::vector<KnownElement>& knownInView() {
   static const std::vector<KnownElement> kKnown = {
       {kViewElement,
        {"version", "dataset", "fixed_frame", "camera_touched", "smooth_moves", "layer_panel", "effect_panel", "legend"},
@@ -161,7 +161,7 @@ XmlElement toXml(const ViewLayout& layout) {
     view.children.emplace_back(XmlElement{"RemovedLayer"}).set("id", topic);
   }
   addPicks(layout.picks, view);
-  keepUnknown(view, layout.source, knownElements());
+  keepUnknown(view, layout.source, knownInView());
   return view;
 }
 

@@ -15,7 +15,7 @@ constexpr int kFarthest = 1'000'000;  // of a window's corner, where many screen
 constexpr std::size_t kMostViews = 64;
 constexpr std::size_t kLongestSizes = 8 * kMostViews;  // characters
 
-const std::vector<KnownElement>& knownElements() {
+const std::vector<KnownElement>& knownInWindows() {
   static const std::vector<KnownElement> kKnown = {
       {kLayoutElement, {"version", "active_view"}, {"Window"}},
       {"Window", {"x", "y", "maximized", "width", "height", "docks"}, {"Splitter", kViewElement}},
@@ -74,7 +74,7 @@ XmlElement placeElement(const Place& place) {
   for (const Place& child : place.children) {
     splitter.children.push_back(placeElement(child));
   }
-  keepUnknown(splitter, place.source, knownElements());
+  keepUnknown(splitter, place.source, knownInWindows());
   return splitter;
 }
 
@@ -233,9 +233,9 @@ XmlElement toXml(const Layout& layout) {
       element.set("docks", window.docks);
     }
     element.children.push_back(placeElement(window.place));
-    keepUnknown(element, window.source, knownElements());
+    keepUnknown(element, window.source, knownInWindows());
   }
-  keepUnknown(root, layout.source, knownElements());
+  keepUnknown(root, layout.source, knownInWindows());
   return root;
 }
 

@@ -7,6 +7,7 @@
 
 #include "tests/nodes/picture_colors.h"
 #include "tests/nodes/scene_picture.h"
+#include "tests/support/setting_texts.h"
 
 namespace stillframe::test {
 namespace {
@@ -33,13 +34,6 @@ std::shared_ptr<scenegraph::Dataset> datasetOf(PointCloud cloud, const tf::Rigid
       .topic("/points", ObjectType::PointCloud)
       .at(1_s, std::move(cloud))
       .build();
-}
-
-const scenegraph::SettingTexts kBig = {{"point_size", "9"}};
-
-scenegraph::SettingTexts with(scenegraph::SettingTexts settings, const scenegraph::SettingTexts& more) {
-  settings.insert(more.begin(), more.end());
-  return settings;
 }
 
 class CloudPicture : public ScenePictureTest {

@@ -12,6 +12,7 @@
 
 #include "nodes/points/codecs/cloudini.h"
 #include "nodes/points/codecs/draco.h"
+#include "tests/support/recordings.h"
 #include "tools/sample/cloudini_writer.h"
 
 namespace stillframe::test {
@@ -20,8 +21,6 @@ namespace {
 using sample::toPayload;
 
 using scenegraph::FieldType;
-
-const std::filesystem::path kData = STILLFRAME_TEST_DATA;
 
 std::vector<std::byte> readFile(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -6,6 +6,7 @@
 #include "tests/nodes/images/image_builder.h"
 #include "tests/nodes/picture_colors.h"
 #include "tests/nodes/scene_picture.h"
+#include "tests/support/setting_texts.h"
 
 namespace stillframe::test {
 namespace {
@@ -31,13 +32,6 @@ scenegraph::CameraView fromOptical() {
   return {.eye_from_fixed = scenegraph::lookAt({0, 0, 0}, {0, 0, 1}, {0, -1, 0}),
           .is_orthographic = true,
           .vertical_extent_m = 20.0};
-}
-
-const scenegraph::SettingTexts kBig = {{"point_size", "9"}};
-
-scenegraph::SettingTexts with(scenegraph::SettingTexts settings, const scenegraph::SettingTexts& more) {
-  settings.insert(more.begin(), more.end());
-  return settings;
 }
 
 using DepthPicture = ScenePictureTest;

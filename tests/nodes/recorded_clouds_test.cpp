@@ -10,14 +10,13 @@
 #include "nodes/points/channel.h"
 #include "nodes/points/point_colors.h"
 #include "tests/nodes/cloud_builder.h"
+#include "tests/support/recordings.h"
 #include "tools/ingest/recording.h"
 
 namespace stillframe::test {
 namespace {
 
 using nlohmann::json;
-
-const std::filesystem::path kData = STILLFRAME_TEST_DATA;
 
 /// Least and greatest value of a coordinate or channel.
 void expectLimits(const PointCloud& cloud, const Converted& converted, const std::string& field, const json& limits) {

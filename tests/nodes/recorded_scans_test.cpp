@@ -14,14 +14,13 @@
 #include "nodes/laser_scan/scan_cloud.h"
 #include "scenegraph/objects/grid_map.h"
 #include "scenegraph/objects/laser_scan.h"
+#include "tests/support/recordings.h"
 #include "tools/ingest/recording.h"
 
 namespace stillframe::test {
 namespace {
 
 using nlohmann::json;
-
-const std::filesystem::path kData = STILLFRAME_TEST_DATA;
 
 /// Calls `check(object, sample)` for every reference answer of that ROS type in the recording.
 template <typename T, typename Check>

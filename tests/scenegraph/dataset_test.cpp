@@ -13,13 +13,13 @@ namespace stillframe::scenegraph {
 namespace {
 
 using test::DatasetBuilder;
+using test::kMax;
+using test::kMin;
 using test::Random;
 using test::translate;
 using namespace tf::literals;
 
 constexpr std::int64_t kEpoch = 1'700'000'000'000'000'000;
-constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
 
 const Problem* findProblem(const std::vector<Problem>& problems, const std::string& code) {
   const auto found = std::ranges::find(problems, code, &Problem::code);

@@ -24,7 +24,7 @@ const Problem& find(const std::vector<Problem>& problems, const std::string& cod
 }
 
 /// A robot that drives 0.1 m every 100 ms.
-TfBuilder drive(std::int64_t from_ns, std::int64_t to_ns) {
+TfBuilder drivenEdge(std::int64_t from_ns, std::int64_t to_ns) {
   TfBuilder builder;
   builder.edge("odom", "base");
   for (std::int64_t t = from_ns; t <= to_ns; t += 100_ms) {
@@ -34,11 +34,11 @@ TfBuilder drive(std::int64_t from_ns, std::int64_t to_ns) {
 }
 
 TEST(EdgeProblems, ASteadyEdgeHasNone) {
-  EXPECT_TRUE(edgeProblems(*drive(0, 20_s).build(), tf::TimePoint{20_s}).empty());
+  EXPECT_TRUE(edgeProblems(*drivenEdge(0, 20_s).build(), tf::TimePoint{20_s}).empty());
 }
 
 TEST(EdgeProblems, AGapIsAtItsLastSampleAndSaysHowLongItIs) {
-  auto builder = drive(0, 5_s);
+  auto builder = drivenEdge(0, 5_s);
   for (std::int64_t t = 9_s; t <= 12_s; t += 100_ms) {
     builder.at(t, translate(5.0, 0, 0));
   }
@@ -51,7 +51,7 @@ TEST(EdgeProblems, AGapIsAtItsLastSampleAndSaysHowLongItIs) {
 }
 
 TEST(EdgeProblems, AJumpIsAtTheSampleThatJumpedByPlaceOrByTurn) {
-  auto builder = drive(0, 5_s);
+  auto builder = drivenEdge(0, 5_s);
   builder.at(5'100_ms, translate(9.0, 0, 0)).at(5'200_ms, turn(2.0, 9.0, 0, 0));
   const auto problems = edgeProblems(*builder.build(), tf::TimePoint{5'200_ms});
   ASSERT_EQ(count(problems, "TransformJump"), 2U);
@@ -59,7 +59,7 @@ TEST(EdgeProblems, AJumpIsAtTheSampleThatJumpedByPlaceOrByTurn) {
 }
 
 TEST(EdgeProblems, AnEdgeThatEndsEarlyIsStaleFromThere) {
-  const auto problems = edgeProblems(*drive(0, 5_s).build(), tf::TimePoint{30_s});
+  const auto problems = edgeProblems(*drivenEdge(0, 5_s).build(), tf::TimePoint{30_s});
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].code, "StaleTransform");
   EXPECT_EQ(problems[0].time, tf::TimePoint{5_s});

@@ -13,11 +13,10 @@
 namespace stillframe::scenegraph {
 namespace {
 
+using test::kMax;
+using test::kMin;
 using test::Random;
 using namespace tf::literals;
-
-constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
 
 Entry entryAt(std::int64_t ns, std::uint64_t locator = 0) {
   Entry entry;

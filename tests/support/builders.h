@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <expected>
+#include <limits>
 #include <memory>
 #include <random>
 #include <string>
@@ -18,6 +19,9 @@
 namespace stillframe::test {
 
 using namespace tf::literals;
+
+inline constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
+inline constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
 
 /// A pure translation, target_from_source.
 [[nodiscard]] inline tf::RigidTransform translate(double x, double y, double z) { return {.translation = {x, y, z}}; }

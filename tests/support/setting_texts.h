@@ -7,6 +7,15 @@
 
 namespace stillframe::test {
 
+/// Points that a pixel in their middle tells apart.
+inline const scenegraph::SettingTexts kBig = {{"point_size", "9"}};
+
+/// `settings` and those of `more` that they do not have.
+inline scenegraph::SettingTexts with(scenegraph::SettingTexts settings, const scenegraph::SettingTexts& more) {
+  settings.insert(more.begin(), more.end());
+  return settings;
+}
+
 /// Texts that `spec` must take.
 inline std::vector<std::string> goodTexts(const scenegraph::SettingSpec& spec) {
   std::vector<std::string> texts = spec.choices;

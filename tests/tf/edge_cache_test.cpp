@@ -14,9 +14,6 @@
 namespace stillframe::tf {
 namespace {
 
-constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
-
 /// Samples of ascending stamps; the pose tells which one it is.
 EdgeCache cacheOf(const std::vector<std::int64_t>& stamps) {
   EdgeCache cache;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <random>
 #include <string>
 #include <string_view>
@@ -8,6 +10,9 @@
 #include "tf/transform_buffer.h"
 
 namespace stillframe::tf {
+
+inline constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
+inline constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
 
 inline RigidTransform translate(double x, double y, double z) { return {{1.0, 0.0, 0.0, 0.0}, {x, y, z}}; }
 

@@ -22,8 +22,8 @@ namespace {
 using scenegraph::Picture;
 using scenegraph::Status;
 
-constexpr int kWidth = 128;
-constexpr int kHeight = 72;
+constexpr int kColumns = 128;
+constexpr int kRows = 72;
 constexpr int kAll = 1 << 20;
 constexpr std::array kSorted{0, 1, 2, 4, 8, 16, 32, 64, 128};
 
@@ -71,8 +71,8 @@ osg::ref_ptr<osg::Group> makePanes(const Case& wanted) {
 
 std::expected<Picture, Status> draw(scenegraph::OffscreenRenderer& renderer, osg::Group& scene, int most_sorted) {
   return renderer.render(scene, {.eye_from_fixed = scenegraph::lookAt({0, 0, 4}, {0, 0, 0}, {0, 1, 0})},
-                         {.width = kWidth,
-                          .height = kHeight,
+                         {.width = kColumns,
+                          .height = kRows,
                           .background = {0.12F, 0.13F, 0.15F, 1.0F},
                           .blend = {.most_sorted = most_sorted}});
 }
@@ -102,8 +102,8 @@ std::expected<TransparencyReport, Status> transparencyAccuracy(scenegraph::Offsc
   TransparencyReport result;
   result.report.name = "transparency";
   std::string& table = result.report.table;
-  table = "# Transparency: error against run time\n\nOn " + name + ", pictures of " + std::to_string(kWidth) + "x" +
-          std::to_string(kHeight) +
+  table = "# Transparency: error against run time\n\nOn " + name + ", pictures of " + std::to_string(kColumns) + "x" +
+          std::to_string(kRows) +
           ", by `stillframe accuracy transparency`. Panes that run through each other; of each pixel's fragments the "
           "nearest so many are put in order, and those behind count by their mean (0 in order: weighted blending). "
           "Errors are of linear light, white = 1 (a step of a byte is 3.9e-3), against all of them in order. In use: " +

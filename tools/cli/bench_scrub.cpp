@@ -24,7 +24,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kPositions = 40;  // of the slider, over the recording
-constexpr double kBudgetMs = 33.0;
+constexpr double kScrubBudgetMs = 33.0;
 constexpr double kLongestWaitS = 20.0;
 constexpr double kLongestRoundS = 60.0;  // there and back; a shorter way where that is not enough
 
@@ -84,7 +84,7 @@ class Scrubber {
     }
     double read_back_ms = 0.0;
     for (double share = 0.0; share < 1.0;) {
-      const auto drawn = renderer_->render(scene_.root(), view_, {.point_limits = {.budget_ms = kBudgetMs}});
+      const auto drawn = renderer_->render(scene_.root(), view_, {.point_limits = {.budget_ms = kScrubBudgetMs}});
       if (!drawn) {
         return failure(drawn.error().message);
       }
@@ -136,7 +136,7 @@ void report(std::vector<BenchResult>& results, const std::string& name, const st
   line("slider to picture", &Step::picture_ms, {});
   line("slider to all of it", &Step::complete_ms, {});
   line("tick, on the window's thread", &Step::tick_ms, kUnnoticed);
-  line("frame, on the window's thread", &Step::frame_ms, 1.3 * kBudgetMs);
+  line("frame, on the window's thread", &Step::frame_ms, 1.3 * kScrubBudgetMs);
 }
 
 /// The first instant at which every topic of clouds has a message; nullopt when none ever has.

@@ -13,18 +13,18 @@ namespace stillframe::cli {
 namespace {
 
 /// One run of the benchmark, as it was printed.
-struct Run {
+struct BenchRun {
   std::string title;
   Json json;
 };
 
-Result<Run> readRun(const std::string& file) {
+Result<BenchRun> readRun(const std::string& file) {
   std::ifstream stream(file);
   Json json = Json::parse(stream, nullptr, false);
   if (!json.is_object() || !json.contains("results") || !json["results"].is_array()) {
     return failure(file + ": this is not what `bench --json` prints");
   }
-  return Run{std::filesystem::path(file).stem().string(), std::move(json)};
+  return BenchRun{std::filesystem::path(file).stem().string(), std::move(json)};
 }
 
 std::string textOf(double value) {
@@ -34,7 +34,7 @@ std::string textOf(double value) {
 }
 
 /// The row of that name; nullptr when the run has none.
-const Json* findRow(const Run& run, const std::string& name) {
+const Json* findRow(const BenchRun& run, const std::string& name) {
   for (const Json& row : run.json["results"]) {
     if (row.value("name", "") == name) {
       return &row;
@@ -50,7 +50,7 @@ std::string targetOf(const Json& row) {
 }
 
 /// Names of all rows: those of the last run in its order, then what only earlier ones have.
-std::vector<std::string> namesOf(const std::vector<Run>& runs) {
+std::vector<std::string> namesOf(const std::vector<BenchRun>& runs) {
   std::vector<std::string> names;
   for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
     for (const Json& row : run->json["results"]) {
@@ -65,7 +65,7 @@ std::vector<std::string> namesOf(const std::vector<Run>& runs) {
 }  // namespace
 
 Result<std::string> benchTable(const std::vector<std::string>& files) {
-  std::vector<Run> runs;
+  std::vector<BenchRun> runs;
   for (const std::string& file : files) {
     auto run = readRun(file);
     if (!run) {
@@ -76,7 +76,7 @@ Result<std::string> benchTable(const std::vector<std::string>& files) {
   std::string text;
   std::string head = "| what |";
   std::string rule = "|---|";
-  for (const Run& run : runs) {
+  for (const BenchRun& run : runs) {
     text += "- " + run.title + ": " + run.json.value("processor", "?") + ", " +
             std::to_string(run.json.value("cores", 0)) + " cores, memcpy " +
             textOf(run.json.value("memcpy_mb_per_s", 0.0)) + " MB/s; " + run.json.value("renderer", "?") +
@@ -89,7 +89,7 @@ Result<std::string> benchTable(const std::vector<std::string>& files) {
     std::string unit;
     std::string target;
     std::string cells;
-    for (const Run& run : runs) {
+    for (const BenchRun& run : runs) {
       const Json* const row = findRow(run, name);
       cells += " " + (row == nullptr ? std::string() : textOf(row->value("value", 0.0))) + " |";
       unit = row == nullptr ? unit : row->value("unit", "");

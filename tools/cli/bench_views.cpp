@@ -18,7 +18,7 @@ namespace {
 constexpr int kWidth_px = 640;
 constexpr int kHeight_px = 360;
 constexpr int kTimes = 20;
-constexpr int kFrames = 5;
+constexpr int kDraws = 5;
 
 /// One view without a widget: what is a view's own.
 struct BenchView {
@@ -94,7 +94,7 @@ Result<ViewCosts> measure(const RecordingOptions& options, std::size_t count) {
       (void)view.renderer->render(view.scene->root(), rig.view(), {kWidth_px, kHeight_px, {}});
     }
   };
-  costs.frame_ms = 1e3 * bestSecondsOf(kFrames, draw);
+  costs.frame_ms = 1e3 * bestSecondsOf(kDraws, draw);
   costs.pictures_mib = heapMib() - before_pictures_mib;
   return costs;
 }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kWidth = 160;
 constexpr std::uint32_t kHeight = 120;
-constexpr std::uint32_t kPointStep = 32;  // x, y, z, padding, rgb, padding: PCL's PointXYZRGB
+constexpr std::uint32_t kPixelStep = 32;  // x, y, z, padding, rgb, padding: PCL's PointXYZRGB
 constexpr double kFocal_px = 130.0;       // about 63 degrees across
 constexpr std::uint64_t kSalt = 0xE7037ED1A0B428DBULL;
 
@@ -34,7 +34,7 @@ class CameraPoints final : public Topic {
   std::vector<std::byte> message(std::int64_t elapsed_ns) const override {
     using scenegraph::FieldType;
     const std::vector<CameraPixel> pixels = camera_.look(stage_, elapsed_ns);
-    std::vector<std::byte> data(pixels.size() * kPointStep);
+    std::vector<std::byte> data(pixels.size() * kPixelStep);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       std::array<float, 3> position;
       position.fill(std::numeric_limits<float>::quiet_NaN());
@@ -42,16 +42,16 @@ class CameraPoints final : public Topic {
         const glm::dvec3 place = camera_.rays()[i] * pixels[i].depth_m;
         position = {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z)};
       }
-      std::memcpy(data.data() + i * kPointStep, position.data(), sizeof position);
-      std::memcpy(data.data() + i * kPointStep + 16, &pixels[i].rgb, sizeof pixels[i].rgb);
+      std::memcpy(data.data() + i * kPixelStep, position.data(), sizeof position);
+      std::memcpy(data.data() + i * kPixelStep + 16, &pixels[i].rgb, sizeof pixels[i].rgb);
     }
     scenegraph::PointCloud cloud;
     cloud.stamp = {stage_.start_ns + elapsed_ns};
     cloud.frame_id = "camera_optical_frame";
     cloud.width = kWidth;
     cloud.height = kHeight;
-    cloud.point_step = kPointStep;
-    cloud.row_step = kWidth * kPointStep;
+    cloud.point_step = kPixelStep;
+    cloud.row_step = kWidth * kPixelStep;
     cloud.is_dense = false;
     cloud.fields = {{"x", 0, FieldType::Float32},
                     {"y", 4, FieldType::Float32},

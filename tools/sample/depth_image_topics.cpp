@@ -8,21 +8,21 @@
 namespace stillframe::sample {
 namespace {
 
-constexpr std::uint32_t kWidth = 160;
-constexpr std::uint32_t kHeight = 120;
-constexpr double kFocal_px = 110.0;
+constexpr std::uint32_t kRearWidth = 160;
+constexpr std::uint32_t kRearHeight = 120;
+constexpr double kRearFocal_px = 110.0;
 constexpr double kCentreU_px = 80.5;
 constexpr double kCentreV_px = 58.0;
 constexpr std::array<double, 5> kDistortion{-0.21, 0.05, 0.0012, -0.0009, -0.004};  // plumb_bob: k1 k2 p1 p2 k3
-constexpr std::uint64_t kSalt = 0x8EBC6AF09C88C6E3ULL;
+constexpr std::uint64_t kRearSalt = 0x8EBC6AF09C88C6E3ULL;
 constexpr std::int64_t kPeriod_ns = 400'000'000;
 constexpr const char* kFrame = "rear_camera_optical_frame";
 
 /// The ray that the lens bends to a pixel: its model turned round by fixed-point steps, which this weak lens permits.
 glm::dvec3 rayOf(double u_px, double v_px) {
   const auto [k1, k2, p1, p2, k3] = kDistortion;
-  const double bent_x = (u_px - kCentreU_px) / kFocal_px;
-  const double bent_y = (v_px - kCentreV_px) / kFocal_px;
+  const double bent_x = (u_px - kCentreU_px) / kRearFocal_px;
+  const double bent_y = (v_px - kCentreV_px) / kRearFocal_px;
   double x = bent_x;
   double y = bent_y;
   for (int step = 0; step < 60; ++step) {
@@ -38,8 +38,8 @@ glm::dvec3 rayOf(double u_px, double v_px) {
 
 std::vector<glm::dvec3> lensRays() {
   std::vector<glm::dvec3> rays;
-  for (std::uint32_t v = 0; v < kHeight; ++v) {
-    for (std::uint32_t u = 0; u < kWidth; ++u) {
+  for (std::uint32_t v = 0; v < kRearHeight; ++v) {
+    for (std::uint32_t u = 0; u < kRearWidth; ++u) {
       rays.push_back(rayOf(u, v));
     }
   }
@@ -62,17 +62,17 @@ class DepthImages final : public Topic {
     scenegraph::Image image;
     image.stamp = {stage_.start_ns + elapsed_ns};
     image.frame_id = kFrame;
-    image.width = kWidth;
-    image.height = kHeight;
+    image.width = kRearWidth;
+    image.height = kRearHeight;
     image.encoding = "16UC1";
-    image.row_step = 2 * kWidth;
+    image.row_step = 2 * kRearWidth;
     image.data.bytes = std::as_bytes(std::span(depths_mm));
     return serializeImage(image);
   }
 
  private:
   Stage stage_;
-  DepthCamera camera_{baseFromRearCamera() * cameraFromOptical(), lensRays(), kSalt};
+  DepthCamera camera_{baseFromRearCamera() * cameraFromOptical(), lensRays(), kRearSalt};
 };
 
 /// The lens of that camera, with each image.
@@ -87,13 +87,13 @@ class DepthCameraInfo final : public Topic {
     scenegraph::CameraInfo info;
     info.stamp = {stage_.start_ns + elapsed_ns};
     info.frame_id = kFrame;
-    info.width = kWidth;
-    info.height = kHeight;
+    info.width = kRearWidth;
+    info.height = kRearHeight;
     info.distortion_model = "plumb_bob";
     info.distortion.assign(kDistortion.begin(), kDistortion.end());
-    info.k = {kFocal_px, 0.0, kCentreU_px, 0.0, kFocal_px, kCentreV_px, 0.0, 0.0, 1.0};
+    info.k = {kRearFocal_px, 0.0, kCentreU_px, 0.0, kRearFocal_px, kCentreV_px, 0.0, 0.0, 1.0};
     info.r = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-    info.p = {kFocal_px, 0.0, kCentreU_px, 0.0, 0.0, kFocal_px, kCentreV_px, 0.0, 0.0, 0.0, 1.0, 0.0};
+    info.p = {kRearFocal_px, 0.0, kCentreU_px, 0.0, 0.0, kRearFocal_px, kCentreV_px, 0.0, 0.0, 0.0, 1.0, 0.0};
     return serializeCameraInfo(info);
   }
 

@@ -9,14 +9,13 @@
 #include "nodes/images/camera_model.h"
 #include "nodes/images/depth_map.h"
 #include "scenegraph/objects/image.h"
+#include "tests/support/recordings.h"
 #include "tools/ingest/recording.h"
 
 namespace stillframe::test {
 namespace {
 
 using nlohmann::json;
-
-const std::filesystem::path kData = STILLFRAME_TEST_DATA;
 
 template <typename T>
 std::shared_ptr<const T> objectAt(const scenegraph::ObjectStore& store, const std::string& topic, std::int64_t ns) {

@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "nodes/markers/scene_history.h"
+#include "tests/support/recordings.h"
 #include "tools/ingest/recording.h"
 
 namespace stillframe::nodes {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kData = STILLFRAME_TEST_DATA;
+using test::kData;
 
 /// "ns|id" of "LENGTH:ns:id".
 std::string named(const std::string& id) {

@@ -12,6 +12,7 @@
 #include "nodes/registry.h"
 #include "scenegraph/scene.h"
 #include "tests/nodes/occupancy_grid/sha256.h"
+#include "tests/support/recordings.h"
 #include "tools/ingest/recording.h"
 
 namespace stillframe::test {
@@ -19,8 +20,6 @@ namespace {
 
 using nlohmann::json;
 using scenegraph::ObjectType;
-
-const std::filesystem::path kData = STILLFRAME_TEST_DATA;
 
 tf::TimePoint timeOf(const json& ns) { return {std::stoll(ns.get<std::string>())}; }
 

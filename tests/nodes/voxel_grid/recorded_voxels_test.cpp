@@ -10,14 +10,13 @@
 #include "nodes/registry.h"
 #include "scenegraph/executor.h"
 #include "scenegraph/scene.h"
+#include "tests/support/recordings.h"
 #include "tools/ingest/recording.h"
 
 namespace stillframe::test {
 namespace {
 
 using nlohmann::json;
-
-const std::filesystem::path kData = STILLFRAME_TEST_DATA;
 
 /// Counts of every layer of voxels at the end of a recording, each with the status Ok.
 std::map<std::string, std::map<std::string, std::uint64_t>> countsAtTheEndOf(const std::string& name) {

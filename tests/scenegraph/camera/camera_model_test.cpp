@@ -11,17 +11,13 @@
 
 #include "scenegraph/camera/camera_rig.h"
 #include "scenegraph/camera/picking.h"
+#include "tests/scenegraph/camera/camera_cases.h"
 #include "tests/support/builders.h"
 
 namespace stillframe::scenegraph {
 namespace {
 
 using test::Random;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr PictureSize kSize{1280.0, 720.0};
-const glm::dvec3 kEcef(4'177'000.25, 855'100.5, 4'728'200.75);
 
 /// Everything of the view is finite, its rotation orthonormal, and the projection usable at any aspect.
 testing::AssertionResult isSane(const CameraModel& model) {

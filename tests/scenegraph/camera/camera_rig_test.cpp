@@ -7,14 +7,13 @@
 #include <limits>
 
 #include "scenegraph/camera/picking.h"
+#include "tests/scenegraph/camera/camera_cases.h"
 #include "tests/support/builders.h"
 
 namespace stillframe::scenegraph {
 namespace {
 
 using test::Random;
-
-constexpr PictureSize kSize{1280.0, 720.0};
 
 CameraState randomState(Random& random) {
   const auto sight = [&] {

@@ -10,17 +10,13 @@
 
 #include "scenegraph/camera/orbit_camera.h"
 #include "scenegraph/camera/picking.h"
+#include "tests/scenegraph/camera/camera_cases.h"
 #include "tests/support/builders.h"
 
 namespace stillframe::scenegraph {
 namespace {
 
 using test::Random;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr PictureSize kSize{1280.0, 720.0};
-const glm::dvec3 kEcef(4'177'000.25, 855'100.5, 4'728'200.75);
 
 bool isFinite(const glm::dmat4& matrix) {
   for (int column = 0; column < 4; ++column) {

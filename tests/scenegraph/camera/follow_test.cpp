@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "scenegraph/camera/picking.h"
+#include "tests/scenegraph/camera/camera_cases.h"
 #include "tests/support/builders.h"
 
 namespace stillframe::scenegraph {
@@ -19,7 +20,6 @@ using test::turn;
 using tf::RigidTransform;
 
 constexpr double kPi = std::numbers::pi;
-constexpr PictureSize kSize{1280.0, 720.0};
 
 glm::dquat about(const glm::dvec3& axis, double angle_rad) { return glm::angleAxis(angle_rad, axis); }
 

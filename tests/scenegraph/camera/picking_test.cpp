@@ -7,6 +7,7 @@
 
 #include "scenegraph/camera/orbit_camera.h"
 #include "scenegraph/camera/top_down_camera.h"
+#include "tests/scenegraph/camera/camera_cases.h"
 #include "tests/support/builders.h"
 
 namespace stillframe::scenegraph {
@@ -15,9 +16,6 @@ namespace {
 using test::TfBuilder;
 using test::translate;
 using namespace tf::literals;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr PictureSize kSize{1280.0, 720.0};
 
 class PickFrames : public testing::Test {
  protected:

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "scenegraph/camera/picking.h"
+#include "tests/scenegraph/camera/camera_cases.h"
 #include "tests/support/builders.h"
 
 namespace stillframe::scenegraph {
@@ -12,7 +13,6 @@ namespace {
 
 using test::turn;
 
-constexpr PictureSize kSize{1280.0, 720.0};
 constexpr double kEnd = ViewCamera::kMoveSeconds;
 
 TEST(ViewCamera, ASmoothMoveGoesFromWhereItWasToExactlyWhereItEnds) {

@@ -9,11 +9,11 @@
 namespace stillframe::scenegraph {
 namespace {
 
-std::string rewritten(const std::string& text) { return writeXml(toXml(parseLayout(text).value())); }
+std::string layoutRewritten(const std::string& text) { return writeXml(toXml(parseLayout(text).value())); }
 
 TEST(WindowLayout, ComesBackExactlyAndByteForByte) {
   const std::string text = writeXml(toXml(test::makeLayout()));
-  EXPECT_EQ(rewritten(text), text);
+  EXPECT_EQ(layoutRewritten(text), text);
   const Layout back = parseLayout(text).value();
   ASSERT_EQ(back.windows.size(), 2U);
   EXPECT_EQ(back.windows[0].docks, "AAAA/w==");
@@ -36,7 +36,7 @@ TEST(WindowLayout, ComesBackExactlyAndByteForByte) {
 
 TEST(WindowLayout, UnknownThingsOfWindowsAndSplittersSurvive) {
   const std::string view = test::viewText("");
-  const std::string text = rewritten(
+  const std::string text = layoutRewritten(
       "<StillframeLayout version=\"1\" theme=\"dark\"><Window screen=\"2\">"
       "<Splitter orientation=\"vertical\" sizes=\"1,2\" handle=\"thin\">" +
       view + view + "<Title/></Splitter><Bars/></Window><Plots n=\"3\"/></StillframeLayout>");
@@ -44,7 +44,7 @@ TEST(WindowLayout, UnknownThingsOfWindowsAndSplittersSurvive) {
        {"theme=\"dark\"", "screen=\"2\"", "handle=\"thin\"", "<Title/>", "<Bars/>", "<Plots n=\"3\"/>"}) {
     EXPECT_NE(text.find(kept), std::string::npos) << kept << " in " << text;
   }
-  EXPECT_EQ(rewritten(text), text);
+  EXPECT_EQ(layoutRewritten(text), text);
 }
 
 TEST(WindowLayout, OneViewAloneIsALayout) {

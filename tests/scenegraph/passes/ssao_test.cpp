@@ -5,7 +5,7 @@
 namespace stillframe::scenegraph {
 namespace {
 
-constexpr int kSize = 120;
+constexpr int kSide = 120;
 
 PostChain ssaoChain(const SsaoSettings& settings) {
   PostChain chain;
@@ -32,8 +32,8 @@ TEST_F(SsaoTest, LeavesAPlaneAloneAtEveryAngle) {
     for (const bool is_half : {false, true}) {
       for (const double angle : {0.0, 10.0, 30.0, 45.0, 60.0, 75.0, 85.0, 88.0}) {
         const CameraView view = lookDown(4.0, angle, is_orthographic);
-        const Picture plain = draw(view, kSize, kSize, {});
-        const Picture shaded = draw(view, kSize, kSize, ssaoChain({.radius = 1.0, .half_resolution = is_half}));
+        const Picture plain = draw(view, kSide, kSide, {});
+        const Picture shaded = draw(view, kSide, kSide, ssaoChain({.radius = 1.0, .half_resolution = is_half}));
         EXPECT_EQ(plain.rgba, shaded.rgba)
             << angle << " degrees, orthographic " << is_orthographic << ", half " << is_half;
       }
@@ -46,25 +46,25 @@ TEST_F(SsaoTest, DarkensACreaseAndNotTheWallsFarFromIt) {
   for (const bool is_orthographic : {false, true}) {
     for (const bool is_half : {false, true}) {
       const Picture shaded =
-          draw(lookDown(5.0, 0.0, is_orthographic), kSize, kSize,
+          draw(lookDown(5.0, 0.0, is_orthographic), kSide, kSide,
                ssaoChain({.radius = 0.6, .samples = 16, .half_resolution = is_half, .smoothing = true}));
-      const float crease = std::min(red(shaded, kSize / 2, kSize / 2), red(shaded, kSize / 2 - 1, kSize / 2));
+      const float crease = std::min(red(shaded, kSide / 2, kSide / 2), red(shaded, kSide / 2 - 1, kSide / 2));
       EXPECT_LT(crease, 0.75F) << is_orthographic << is_half;
       EXPECT_GT(crease, 0.2F) << is_orthographic << is_half;
-      EXPECT_GT(red(shaded, 3 * kSize / 4, kSize / 2), 0.999F) << is_orthographic << is_half;
-      EXPECT_GT(red(shaded, kSize / 4, kSize / 2), 0.999F) << is_orthographic << is_half;
+      EXPECT_GT(red(shaded, 3 * kSide / 4, kSide / 2), 0.999F) << is_orthographic << is_half;
+      EXPECT_GT(red(shaded, kSide / 4, kSide / 2), 0.999F) << is_orthographic << is_half;
     }
   }
 }
 
 TEST_F(SsaoTest, IsTheSameAtEveryScale) {
   root_ = makeCorner(4.0F);
-  const Picture metres = draw(lookDown(5.0, 20.0, false), kSize, kSize, ssaoChain({.radius = 0.6, .smoothing = true}));
+  const Picture metres = draw(lookDown(5.0, 20.0, false), kSide, kSide, ssaoChain({.radius = 0.6, .smoothing = true}));
   for (const double scale : {1e-2, 1e3}) {
     const osg::ref_ptr<osg::Group> unit = makeCorner(static_cast<float>(4.0 * scale));
     root_ = unit;
     const Picture scaled =
-        draw(lookDown(5.0 * scale, 20.0, false), kSize, kSize, ssaoChain({.radius = 0.6 * scale, .smoothing = true}));
+        draw(lookDown(5.0 * scale, 20.0, false), kSide, kSide, ssaoChain({.radius = 0.6 * scale, .smoothing = true}));
     EXPECT_LT(rmse(metres, scaled), 2e-3) << scale;
   }
 }
@@ -72,7 +72,7 @@ TEST_F(SsaoTest, IsTheSameAtEveryScale) {
 TEST_F(SsaoTest, GoesWithRadiusAndIntensity) {
   root_ = makeCorner(4.0F);
   const auto brightness = [&](const SsaoSettings& settings) {
-    const Picture picture = draw(lookDown(5.0, 0.0, false), kSize, kSize, ssaoChain(settings));
+    const Picture picture = draw(lookDown(5.0, 0.0, false), kSide, kSide, ssaoChain(settings));
     double sum = 0.0;
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
       sum += static_cast<double>(picture.rgba[i]);
@@ -89,7 +89,7 @@ TEST_F(SsaoTest, ConvergesWithSamples) {
   root_ = makeCorner(4.0F);
   const CameraView view = lookDown(5.0, 30.0, false);
   const auto picture = [&](std::int64_t samples, bool smoothing) {
-    return draw(view, kSize, kSize, ssaoChain({.radius = 0.8, .samples = samples, .smoothing = smoothing}));
+    return draw(view, kSide, kSide, ssaoChain({.radius = 0.8, .samples = samples, .smoothing = smoothing}));
   };
   const Picture reference = picture(1024, false);
   EXPECT_LT(rmse(picture(64, false), reference), rmse(picture(8, false), reference));

@@ -10,9 +10,9 @@ namespace {
 
 using tf::TimePoint;
 
-constexpr std::pair kRange{TimePoint{1'000'000'000}, TimePoint{11'000'000'000}};
+constexpr std::pair kSeconds{TimePoint{1'000'000'000}, TimePoint{11'000'000'000}};
 
-std::vector<std::int64_t> instants(std::string_view text, const std::pair<TimePoint, TimePoint>& range = kRange) {
+std::vector<std::int64_t> instants(std::string_view text, const std::pair<TimePoint, TimePoint>& range = kSeconds) {
   const auto asked = parseTimes(text);
   const auto times = asked ? resolveTimes(*asked, range) : std::unexpected(asked.error());
   std::vector<std::int64_t> ns;

@@ -15,7 +15,7 @@ namespace {
 
 using test::TemporaryFile;
 
-constexpr std::int64_t kMessages = 6;
+constexpr std::int64_t kDamagedMessages = 6;
 
 std::vector<std::byte> recordingBytes(const McapWriterOptions& options) {
   const TemporaryFile file;
@@ -23,7 +23,7 @@ std::vector<std::byte> recordingBytes(const McapWriterOptions& options) {
   const auto tf = writer->addChannel("/tf", "tf2_msgs/msg/TFMessage", "ros2msg", test::tfDefinition(), "cdr");
   const auto cloud =
       writer->addChannel("/points", "sensor_msgs/msg/PointCloud2", "ros2msg", test::kCloudDefinition, "cdr");
-  for (std::int64_t i = 0; i < kMessages; ++i) {
+  for (std::int64_t i = 0; i < kDamagedMessages; ++i) {
     const auto time = static_cast<std::uint64_t>(1000 + i);
     EXPECT_TRUE(writer->write(tf, time, time, test::tfMessage(1000 + i, "map", "base", static_cast<double>(i))));
     EXPECT_TRUE(writer->write(cloud, time, time, test::cloudMessage(1000 + i, 2)));
@@ -127,7 +127,7 @@ TEST_P(Damage, TheWholeFileIsSound) {
   file.assign(original());
   const Outcome outcome = readAll(file);
   EXPECT_TRUE(outcome.is_open);
-  EXPECT_EQ(outcome.transforms, static_cast<std::size_t>(kMessages));
+  EXPECT_EQ(outcome.transforms, static_cast<std::size_t>(kDamagedMessages));
   EXPECT_EQ(outcome.failures, 0u);
   EXPECT_THAT(codes(outcome), testing::IsEmpty());
 }
@@ -136,7 +136,7 @@ TEST_P(Damage, EveryPrefixOpensAsTruncatedOrIsNoMcap) {
   const auto bytes = original();
   const TemporaryFile file;
   file.assign(bytes);
-  auto before = static_cast<std::size_t>(kMessages);
+  auto before = static_cast<std::size_t>(kDamagedMessages);
   for (std::size_t size = bytes.size(); size-- > 0;) {
     SCOPED_TRACE(size);
     std::filesystem::resize_file(file.path(), size);
@@ -165,8 +165,8 @@ TEST_P(Damage, NoWrongByteGoesUnnoticedInATransform) {
     const Outcome outcome = readAll(file);
     file.replace(at, bytes[at]);
     EXPECT_EQ(outcome.is_open, at >= kMcapMagic.size());
-    EXPECT_LE(outcome.transforms, static_cast<std::size_t>(kMessages));
-    if (outcome.is_open && outcome.transforms < static_cast<std::size_t>(kMessages)) {
+    EXPECT_LE(outcome.transforms, static_cast<std::size_t>(kDamagedMessages));
+    if (outcome.is_open && outcome.transforms < static_cast<std::size_t>(kDamagedMessages)) {
       EXPECT_TRUE(outcome.failures > 0 || !outcome.problems.empty() || GetParam() == std::string("unchunked"))
           << "lost without a word";
     }
@@ -225,7 +225,7 @@ TEST(DamagedIndex, AMessageIndexThatPointsElsewhereShowsNothingElse) {
   file.assign(bytes);
   const Outcome outcome = readAll(file);
   EXPECT_EQ(outcome.failures, 1u);
-  EXPECT_EQ(outcome.transforms, static_cast<std::size_t>(kMessages) - 1);
+  EXPECT_EQ(outcome.transforms, static_cast<std::size_t>(kDamagedMessages) - 1);
 }
 
 TEST(DamagedSummary, IsScannedAround) {
@@ -234,7 +234,7 @@ TEST(DamagedSummary, IsScannedAround) {
   const TemporaryFile file;
   file.assign(bytes);
   const Outcome outcome = readAll(file);
-  EXPECT_EQ(outcome.transforms, static_cast<std::size_t>(kMessages));
+  EXPECT_EQ(outcome.transforms, static_cast<std::size_t>(kDamagedMessages));
   EXPECT_THAT(codes(outcome), testing::Contains("BadSummary"));
 }
 
@@ -264,9 +264,9 @@ TEST(OpenRecording, MergesThePartsOfASplitRecording) {
   const auto topics = (*recording)->topics();
   ASSERT_EQ(topics.size(), 2u);
   EXPECT_EQ(topics[1].name, "/tf");
-  EXPECT_EQ(topics[1].count, 2u * kMessages);
+  EXPECT_EQ(topics[1].count, 2u * kDamagedMessages);
   const auto& store = (*recording)->dataset()->store();
-  EXPECT_EQ(store.entryCount(*store.findTopic("/points")), 2u * kMessages);
+  EXPECT_EQ(store.entryCount(*store.findTopic("/points")), 2u * kDamagedMessages);
 }
 
 TEST(OpenRecording, KnowsTimesAndTopicsBeforeLoading) {
@@ -278,10 +278,10 @@ TEST(OpenRecording, KnowsTimesAndTopicsBeforeLoading) {
   const auto range = (*recording)->dataset()->timeRange();
   ASSERT_TRUE(range);
   EXPECT_EQ(range->first.ns, 1000);
-  EXPECT_EQ(range->second.ns, 1000 + kMessages - 1);
+  EXPECT_EQ(range->second.ns, 1000 + kDamagedMessages - 1);
   const auto topics = (*recording)->topics();
   ASSERT_EQ(topics.size(), 2u);
-  EXPECT_EQ(topics[0].count, static_cast<std::uint64_t>(kMessages));
+  EXPECT_EQ(topics[0].count, static_cast<std::uint64_t>(kDamagedMessages));
 }
 
 TEST(OpenRecording, LoadingCanStopAndGoOn) {
@@ -295,8 +295,8 @@ TEST(OpenRecording, LoadingCanStopAndGoOn) {
   const auto& transforms = *(*recording)->dataset()->transforms();
   const auto base = transforms.findFrame("base");
   ASSERT_TRUE(base);
-  EXPECT_EQ(transforms.edge(*base)->samples, static_cast<std::size_t>(kMessages));
-  EXPECT_EQ((*recording)->topics()[1].count, static_cast<std::uint64_t>(kMessages));
+  EXPECT_EQ(transforms.edge(*base)->samples, static_cast<std::size_t>(kDamagedMessages));
+  EXPECT_EQ((*recording)->topics()[1].count, static_cast<std::uint64_t>(kDamagedMessages));
 }
 
 }  // namespace

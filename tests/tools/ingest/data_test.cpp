@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scenegraph/objects/point_cloud.h"
+#include "tests/support/recordings.h"
 #include "tools/ingest/recording.h"
 
 namespace stillframe::ingest {
@@ -16,8 +17,7 @@ namespace {
 
 using nlohmann::json;
 using scenegraph::ObjectType;
-
-const std::filesystem::path kData = STILLFRAME_TEST_DATA;
+using stillframe::test::kData;
 
 std::vector<std::filesystem::path> recordings() {
   std::vector<std::filesystem::path> files;

@@ -67,7 +67,10 @@ void LineDrawable::set(const LineArrays& arrays) {
   geometry_->setVertexArray(nullptr);
   geometry_->dirtyBound();
   styles_ = points_ = nullptr;
-  if (arrays.segments == 0) {
+  const std::uint64_t needed =
+      arrays.segments == 0 ? 0 : std::max<std::uint64_t>(arrays.points->size(), arrays.styles->size());
+  texels_too_many_ = needed > buffer_texels_ ? needed : 0;
+  if (arrays.segments == 0 || texels_too_many_ > 0) {
     return;
   }
   points_ = arrays.points;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <osg/Geometry>
 #include <osg/Uniform>
@@ -9,6 +10,7 @@
 #include "nodes/coloring_state.h"
 #include "nodes/lines/line_arrays.h"
 #include "nodes/points/value_range.h"
+#include "scenegraph/layer.h"
 #include "scenegraph/pick/pick_hit.h"
 #include "scenegraph/settings.h"
 
@@ -27,6 +29,10 @@ class LineDrawable {
   LineDrawable();
   [[nodiscard]] osg::Geometry* geometry() const noexcept { return geometry_.get(); }
 
+  /// What the driver takes in one texture buffer; lines that need more are not drawn by the next set().
+  void setBufferTexels(std::uint64_t texels) { buffer_texels_ = texels; }
+  /// What those of the last set() need, where that is more than the driver takes; else 0.
+  [[nodiscard]] std::uint64_t texelsTooMany() const noexcept { return texels_too_many_; }
   /// What is drawn from now on; colours by the arrays' channel, else the colour of setColor().
   void set(const LineArrays& arrays);
   /// Nothing is drawn, and nothing held.
@@ -69,6 +75,8 @@ class LineDrawable {
   double opacity_now_ = 1.0;
   double color_alpha_ = 1.0;
   bool has_alpha_ = false;
+  std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
+  std::uint64_t texels_too_many_ = 0;
 };
 
 }  // namespace stillframe::nodes

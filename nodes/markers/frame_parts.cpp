@@ -1,5 +1,6 @@
 #include "nodes/markers/frame_parts.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "nodes/osg_math.h"
@@ -46,6 +47,7 @@ bool FrameParts::open(const ShapeBatchKey& key, std::uint32_t size) {
     batch.detail = detail;
     batch.mesh->setOrigin(key.origin());
     applyLook(key, *batch.mesh);
+    batch.mesh->setBufferTexels(buffer_texels_);
   }
   batch.mesh->resize(size);
   return is_new;
@@ -69,6 +71,24 @@ void FrameParts::setLook(double opacity, bool shows_texts) {
       applyLook(key, *batch.mesh);
     }
   }
+}
+
+void FrameParts::setBufferTexels(std::uint64_t texels) {
+  if (buffer_texels_ != texels) {
+    buffer_texels_ = texels;
+    rest_.setBufferTexels(texels);
+    for (const auto& [key, batch] : batches_) {
+      batch.mesh->setBufferTexels(texels);
+    }
+  }
+}
+
+std::uint64_t FrameParts::texelsTooMany() const {
+  std::uint64_t needed = rest_.texelsTooMany();
+  for (const auto& [key, batch] : batches_) {
+    needed = std::max(needed, batch.mesh->texelsTooMany());
+  }
+  return needed;
 }
 
 void FrameParts::commit() {

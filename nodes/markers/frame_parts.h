@@ -40,7 +40,11 @@ class FrameParts {
   [[nodiscard]] RestParts& rest() noexcept { return rest_; }
   [[nodiscard]] const RestParts& rest() const noexcept { return rest_; }
   void setLook(double opacity, bool shows_texts);
+  /// What the driver takes in one texture buffer; what needs more is not drawn.
+  void setBufferTexels(std::uint64_t texels);
   void commit();
+  /// What the largest thing left out for that would need; 0 when all is drawn.
+  [[nodiscard]] std::uint64_t texelsTooMany() const;
 
   [[nodiscard]] bool isEmpty() const noexcept { return batches_.empty() && rest_.isEmpty(); }
   /// In the frame; invalid for nothing.
@@ -59,6 +63,7 @@ class FrameParts {
   std::map<ShapeBatchKey, Batch> batches_;
   RestParts rest_;
   double opacity_ = 1.0;
+  std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
 };
 
 }  // namespace stillframe::nodes

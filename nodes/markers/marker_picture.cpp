@@ -12,10 +12,7 @@ MarkerPicture::~MarkerPicture() { clear(); }
 
 void MarkerPicture::clear() {
   for (const auto& [frame, parts] : parts_) {
-    if (osg::MatrixTransform* const node = frame_graph_.node(frame)) {
-      node->removeChild(&parts->node());
-    }
-    frame_graph_.release(frame);
+    frame_graph_.unhang(frame, parts->node());
   }
   parts_.clear();
   shown_ = nullptr;
@@ -30,7 +27,8 @@ FrameParts& MarkerPicture::partsOf(const std::string& frame) {
   if (parts == nullptr) {
     parts = std::make_unique<FrameParts>(name_, texts_);
     parts->setLook(settings_.opacity, settings_.texts);
-    frame_graph_.acquire(frame).addChild(&parts->node());
+    parts->setBufferTexels(buffer_texels_);
+    frame_graph_.hang(frame, parts->node());
   }
   return *parts;
 }
@@ -92,16 +90,19 @@ void MarkerPicture::writeShapes(const LiveEntity& entity) const {
   }
 }
 
-void MarkerPicture::show(std::shared_ptr<const SceneState> state, const MarkersSettings& settings) {
-  if (state == shown_ && settings == settings_) {
+void MarkerPicture::show(std::shared_ptr<const SceneState> state, const MarkersSettings& settings,
+                         std::uint64_t buffer_texels) {
+  if (state == shown_ && settings == settings_ && buffer_texels == buffer_texels_) {
     return;
   }
+  buffer_texels_ = buffer_texels;
   if (settings.hidden_namespaces != settings_.hidden_namespaces) {
     clear();
   }
   settings_ = settings;
   for (const auto& [frame, parts] : parts_) {
     parts->setLook(settings.opacity, settings.texts);
+    parts->setBufferTexels(buffer_texels);
   }
   std::vector<Change> changes;
   forEachChange(shown_ != nullptr ? *shown_ : SceneState{}, *state,
@@ -159,10 +160,7 @@ void MarkerPicture::dropEmptyFrames() {
     if (!parts->isEmpty()) {
       return false;
     }
-    if (osg::MatrixTransform* const node = frame_graph_.node(frame)) {
-      node->removeChild(&parts->node());
-    }
-    frame_graph_.release(frame);
+    frame_graph_.unhang(frame, parts->node());
     return true;
   });
 }
@@ -179,6 +177,7 @@ MarkerPicture::Counts MarkerPicture::counts() const {
     counts.draw_calls += parts->drawCalls();
     counts.left_out += parts->rest().leftOut();
     counts.failed_models += parts->rest().models().failed();
+    counts.texels_too_many = std::max(counts.texels_too_many, parts->texelsTooMany());
   }
   return counts;
 }

@@ -30,7 +30,8 @@ class MarkerPicture {
   MarkerPicture(scenegraph::FrameGraph& frames, std::string name);
   ~MarkerPicture();
 
-  void show(std::shared_ptr<const SceneState> state, const MarkersSettings& settings);
+  /// What needs a texture buffer of more than `buffer_texels` is left out.
+  void show(std::shared_ptr<const SceneState> state, const MarkersSettings& settings, std::uint64_t buffer_texels);
   /// The models to load; and those that were. Call after show().
   [[nodiscard]] WantedModels wantedModels() const;
   void setModels(const std::shared_ptr<const ModelSet>& models);
@@ -49,6 +50,7 @@ class MarkerPicture {
     std::uint64_t draw_calls = 0;
     std::uint64_t left_out = 0;  ///< lines, triangles, texts (RestParts)
     std::uint64_t failed_models = 0;
+    std::uint64_t texels_too_many = 0;  ///< that the largest thing left out for its size needs; 0: all is drawn
   };
   [[nodiscard]] Counts counts() const;
   void collectNodes(std::vector<osg::Node*>& nodes) const;
@@ -87,6 +89,7 @@ class MarkerPicture {
   std::uint64_t entities_ = 0;
   std::uint64_t primitives_ = 0;
   std::uint64_t hidden_ = 0;
+  std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
 };
 
 }  // namespace stillframe::nodes

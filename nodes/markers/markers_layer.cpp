@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "nodes/buffer_limit.h"
 #include "nodes/osg_math.h"
 #include "scenegraph/placement.h"
 
@@ -54,7 +55,8 @@ void MarkersLayer::update(const scenegraph::Tick& tick) {
   const std::uint64_t namespaces_before = picture_->namespacesRevision();
   tracker_->update(tick.time);
   if (tracker_->product() != nullptr) {
-    picture_->show(tracker_->product(), settings_);
+    buffer_texels_ = tick.buffer_texels;
+    picture_->show(tracker_->product(), settings_, buffer_texels_);
     shelf_->want(picture_->wantedModels());
     picture_->setModels(shelf_->models());
   } else {
@@ -117,6 +119,10 @@ Status MarkersLayer::remark(tf::TimePoint time) const {
                               " markers of the newest message are not drawn; the first: " + state.faults.front())};
   }
   const MarkerPicture::Counts counts = picture_->counts();
+  if (counts.texels_too_many > 0) {
+    return bufferTooLarge(base + "shapes or lines among its " + plural(counts.entities, "marker"),
+                          counts.texels_too_many, buffer_texels_);
+  }
   if (state.totals.unsound + counts.left_out > 0) {
     return {StatusLevel::Warn, "PrimitivesLeftOut",
             base + plural(state.totals.unsound + counts.left_out, "primitive") +

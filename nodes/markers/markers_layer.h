@@ -62,6 +62,7 @@ class MarkersLayer final : public scenegraph::Layer {
   std::optional<SceneTracker> tracker_;
   std::optional<MarkerPicture> picture_;
   std::optional<ModelShelf> shelf_;
+  std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
 };
 
 }  // namespace stillframe::nodes

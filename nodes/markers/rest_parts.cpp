@@ -155,6 +155,17 @@ void RestParts::setLook(double opacity, bool shows_texts) {
   }
 }
 
+void RestParts::setBufferTexels(std::uint64_t texels) {
+  for (const Strokes& strokes : strokes_) {
+    strokes.lines->setBufferTexels(texels);
+  }
+  has_new_lines_ = true;
+}
+
+std::uint64_t RestParts::texelsTooMany() const noexcept {
+  return std::max(strokes_[0].lines->texelsTooMany(), strokes_[1].lines->texelsTooMany());
+}
+
 void RestParts::makeTexts(std::size_t slot) {
   const SceneEntity& entity = *entities_.at(slot);
   if (entity.texts.empty() || !shows_texts_) {
@@ -230,8 +241,8 @@ void RestParts::makeLines() {
     }
     const LineArrays arrays = builder.take();
     unsound_lines_ += arrays.not_finite + arrays.out_of_reach;
-    strokes.is_drawn = arrays.segments > 0;
     strokes.lines->set(arrays);
+    strokes.is_drawn = arrays.segments > 0 && strokes.lines->texelsTooMany() == 0;
     strokes.node->setMatrix(osg::Matrixd::translate(toOsg(at)));
     if (strokes.is_drawn) {
       lines_box_.expandBy(toOsg(at) + arrays.box._min);

@@ -36,6 +36,10 @@ class RestParts {
   /// What the entity in `slot` has; nullptr: nothing (any more).
   void set(std::size_t slot, std::shared_ptr<const scenegraph::SceneEntity> entity);
   void setLook(double opacity, bool shows_texts);
+  /// What the driver takes in one texture buffer; lines that need more are not drawn.
+  void setBufferTexels(std::uint64_t texels);
+  /// What lines left out for that would need; 0 when all are drawn.
+  [[nodiscard]] std::uint64_t texelsTooMany() const noexcept;
   /// Call once after changes.
   void commit();
   void setModels(std::shared_ptr<const ModelSet> models) { models_.setModels(std::move(models)); }

@@ -76,10 +76,13 @@ void PoseShapes::forgetAllButMeshes() {
   shapes_ = segments_ = 0;
   stride_ = 1;
   shows_rotations_ = is_fill_refused_ = false;
+  texels_too_many_ = 0;
   covariance_ = {};
 }
 
-void PoseShapes::build(const PoseSet& shown, const PoseTrail* trail, const PosesSettings& settings) {
+void PoseShapes::build(const PoseSet& shown, const PoseTrail* trail, const PosesSettings& settings,
+                       std::uint64_t buffer_texels) {
+  buffer_texels_ = buffer_texels;
   for (const Hung& hung : meshes_) {
     parent_.removeChild(&hung.mesh->node());
   }
@@ -157,7 +160,9 @@ void PoseShapes::hang(const TriangleMesh& mesh, const char* name, std::string_vi
   added.resize(copies.instances.size());
   added.set(0, copies.instances);
   added.setBlended(copies.is_blended);
+  added.setBufferTexels(buffer_texels_);
   added.commit();
+  texels_too_many_ = std::max(texels_too_many_, added.texelsTooMany());
   parent_.addChild(&added.node());
   if (added.box().valid()) {
     const osg::Vec3d offset = toOsg(origin);
@@ -211,6 +216,7 @@ void PoseShapes::buildShapes(const PoseSet& poses, const PosesSettings& settings
        : shape == "arrows" ? arrowMesh(10)
                            : frustumMesh(0.5F, 0.5F, 8),
        shape == "spheres" ? "points" : "poses", shape, poses.origin(), copies);
+  shapes_ = texels_too_many_ > 0 ? 0 : shapes_;
 }
 
 void PoseShapes::buildLine(const PoseSet& poses, const PosesSettings& settings) {
@@ -220,7 +226,14 @@ void PoseShapes::buildLine(const PoseSet& poses, const PosesSettings& settings) 
     return;
   }
   line_.emplace();
+  line_->setBufferTexels(buffer_texels_);
   line_->set(line.arrays);
+  if (line_->texelsTooMany() > 0) {
+    texels_too_many_ = std::max(texels_too_many_, line_->texelsTooMany());
+    segments_ = 0;
+    line_.reset();
+    return;
+  }
   line_->setStyle(0, {.width = settings.line_width, .in_metres = settings.line_unit == "m"});
   line_->setDepthPull(settings.line_unit == "m" ? kDepthPullInMetres : kDepthPull);
   line_->setColor(settings.color);

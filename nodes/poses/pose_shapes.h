@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <osg/BoundingBox>
@@ -37,8 +38,9 @@ class PoseShapes {
   PoseShapes(const PoseShapes&) = delete;
   PoseShapes& operator=(const PoseShapes&) = delete;
 
-  /// Shapes at the poses of `shown`, or of the trail where the settings want it. Costs 64 bytes a copy.
-  void build(const PoseSet& shown, const PoseTrail* trail, const PosesSettings& settings);
+  /// Shapes at the poses of `shown`, or of the trail where the settings want it. Costs 64 bytes a copy. What needs a
+  /// buffer of more than `buffer_texels` is left out.
+  void build(const PoseSet& shown, const PoseTrail* trail, const PosesSettings& settings, std::uint64_t buffer_texels);
   void clear();
 
   /// Which pose of those given to build() is hit, and where.
@@ -61,6 +63,8 @@ class PoseShapes {
   [[nodiscard]] std::size_t stride() const noexcept { return stride_; }
   /// Whether a polygon should have been filled and could not be.
   [[nodiscard]] bool isFillRefused() const noexcept { return is_fill_refused_; }
+  /// What was left out would need in one texture buffer; 0 when all is drawn.
+  [[nodiscard]] std::uint64_t texelsTooMany() const noexcept { return texels_too_many_; }
   /// Of the line's colours; nullopt when there is no line, or one of one colour.
   [[nodiscard]] const std::optional<ValueRange>& lineRange() const noexcept { return line_range_; }
   [[nodiscard]] const CovarianceReport& covariance() const noexcept { return covariance_; }
@@ -98,6 +102,8 @@ class PoseShapes {
   std::size_t shapes_ = 0;
   std::size_t segments_ = 0;
   std::size_t stride_ = 1;
+  std::uint64_t buffer_texels_ = 0;
+  std::uint64_t texels_too_many_ = 0;
   bool shows_rotations_ = false;
   bool is_fill_refused_ = false;
   CovarianceReport covariance_;

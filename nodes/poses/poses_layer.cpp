@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "nodes/buffer_limit.h"
 #include "nodes/points/value_histogram.h"
 #include "scenegraph/store/tf_clock.h"
 
@@ -39,8 +40,12 @@ TrailWindow windowOf(const PosesSettings& settings) {
   return window;
 }
 
-std::string countText(std::size_t count, std::size_t of, const char* what) {
-  return std::to_string(count) + " of " + std::to_string(of) + " poses " + what;
+std::string posesText(std::size_t count) { return std::to_string(count) + (count == 1 ? " pose" : " poses"); }
+
+/// "2 of 5 poses have no bottom"; `what` is said of one and of several.
+std::string countText(std::size_t count, std::size_t of, const char* have, const char* what) {
+  const char* const verb = count == 1 ? (std::string_view(have) == "are" ? "is" : "has") : have;
+  return std::to_string(count) + " of " + posesText(of) + " " + verb + " " + what;
 }
 
 /// Sentences about a sample under one code, that of the first.
@@ -68,10 +73,10 @@ void remarkFaults(Remarks& remarks, const PoseSet& poses) {
   const PoseSet::Faults& faults = poses.faults();
   const std::size_t all = poses.source().poses.size();
   if (faults.not_finite > 0) {
-    remarks.add("PosesNotFinite", countText(faults.not_finite, all, "have a NaN or infinite place: not drawn"));
+    remarks.add("PosesNotFinite", countText(faults.not_finite, all, "have", "a NaN or infinite place: not drawn"));
   }
   if (faults.out_of_reach > 0) {
-    remarks.add("PosesOutOfReach", countText(faults.out_of_reach, all, "are too far away to be drawn"));
+    remarks.add("PosesOutOfReach", countText(faults.out_of_reach, all, "are", "too far away to be drawn"));
   }
 }
 
@@ -79,14 +84,14 @@ void remarkRotations(Remarks& remarks, const PoseSet& poses) {
   const PoseSet::Faults& faults = poses.faults();
   const std::size_t all = poses.source().poses.size();
   if (faults.bad_rotations > 0) {
-    remarks.add("RotationsNotFinite", countText(faults.bad_rotations, all, "have a NaN or infinite rotation"));
+    remarks.add("RotationsNotFinite", countText(faults.bad_rotations, all, "have", "a NaN or infinite rotation"));
   }
   if (faults.zero_rotations > 0) {
-    remarks.add("ZeroRotation", countText(faults.zero_rotations, all, "have the rotation 0 0 0 0: drawn unturned"));
+    remarks.add("ZeroRotation", countText(faults.zero_rotations, all, "have", "the rotation 0 0 0 0: drawn unturned"));
   }
   if (faults.unnormalised > 0) {
     remarks.add("UnnormalisedRotation",
-                countText(faults.unnormalised, all, "have a rotation that is not of norm 1: drawn normalised"));
+                countText(faults.unnormalised, all, "have", "a rotation that is not of norm 1: drawn normalised"));
   }
 }
 
@@ -110,11 +115,14 @@ void remarkCovariance(Remarks& remarks, const CovarianceReport& report) {
 
 void remarkTrail(Remarks& remarks, const PoseTrail& trail) {
   if (trail.other_frames > 0) {
-    remarks.add("TrailInOtherFrames", std::to_string(trail.other_frames) +
-                                          " poses of the trail are in another frame than the last one: not drawn");
+    remarks.add("TrailInOtherFrames", posesText(trail.other_frames) + " of the trail " +
+                                          (trail.other_frames == 1 ? "is" : "are") +
+                                          " in another frame than the last one: not drawn");
   }
   if (trail.undecodable > 0) {
-    remarks.add("TrailUndecodable", std::to_string(trail.undecodable) + " messages of the trail could not be decoded");
+    remarks.add("TrailUndecodable", std::to_string(trail.undecodable) +
+                                        (trail.undecodable == 1 ? " message" : " messages") +
+                                        " of the trail could not be decoded");
   }
   if (trail.is_cut) {
     remarks.add("TrailCut", "the trail is cut to its last " + std::to_string(PoseTrail::kMost) + " poses");
@@ -163,6 +171,14 @@ void PosesLayer::show() {
   reapply();
 }
 
+std::optional<TopicLayer::Anchor> PosesLayer::load(const scenegraph::Tick& tick) {
+  if (buffer_texels_ != tick.buffer_texels) {
+    buffer_texels_ = tick.buffer_texels;
+    reapply();
+  }
+  return SampleLayer::load(tick);
+}
+
 PosesLayer::Shown PosesLayer::drawnOf(const Shown& loaded) {
   trail_status_ = {};
   const bool is_single = loaded != nullptr && (loaded->poses->source().kind == PosesKind::Single ||
@@ -188,7 +204,7 @@ TopicLayer::Anchor PosesLayer::anchorOf(const ShownPoses& shown) const {
 
 void PosesLayer::draw(const Placement& /*fixed_from_data*/) {
   if (takeSettings()) {
-    shapes_->build(*product()->poses, product()->trail.get(), chosen());
+    shapes_->build(*product()->poses, product()->trail.get(), chosen(), buffer_texels_);
   }
 }
 
@@ -259,6 +275,10 @@ Status PosesLayer::remark() const {
   Remarks remarks;
   const PoseSet& poses = *product()->poses;
   const PoseSet& on_line = product()->trail != nullptr ? product()->trail->poses : poses;
+  if (shapes_->texelsTooMany() > 0) {
+    return bufferTooLarge(loadedText() + "its " + posesText(on_line.source().poses.size()), shapes_->texelsTooMany(),
+                          buffer_texels_);
+  }
   remarkFaults(remarks, on_line);
   if (shapes_->showsRotations()) {
     remarkRotations(remarks, poses);

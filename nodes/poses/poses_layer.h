@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -45,6 +46,7 @@ class PosesLayer final : public SampleLayer<ShownPoses, PosesSettings> {
   void close() override;
   void clear() override;
   void show() override;
+  [[nodiscard]] std::optional<Anchor> load(const scenegraph::Tick& tick) override;
   [[nodiscard]] Shown drawnOf(const Shown& loaded) override;
   [[nodiscard]] Anchor anchorOf(const ShownPoses& shown) const override;
   [[nodiscard]] std::optional<scenegraph::Picked> describeData(const scenegraph::PickHit& hit) const override;
@@ -60,6 +62,7 @@ class PosesLayer final : public SampleLayer<ShownPoses, PosesSettings> {
   Shown loaded_;                            // that drawn_ was made of
   Shown drawn_;
   scenegraph::Status trail_status_;
+  std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
 };
 
 }  // namespace stillframe::nodes

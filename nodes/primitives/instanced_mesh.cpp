@@ -133,6 +133,11 @@ void InstancedMesh::setBlended(bool is_blended) {
 
 void InstancedMesh::setOpacity(double opacity) { opacity_->set(static_cast<float>(opacity)); }
 
+void InstancedMesh::setBufferTexels(std::uint64_t texels) {
+  is_dirty_ = is_dirty_ || buffer_texels_ != texels;
+  buffer_texels_ = texels;
+}
+
 void InstancedMesh::commit() {
   if (!is_dirty_) {
     return;
@@ -170,6 +175,10 @@ void InstancedMesh::commit() {
   box_.init();
   for (const osg::BoundingBoxd& box : boxes_) {
     box_.expandBy(box);
+  }
+  if (texelsTooMany() > 0) {
+    box_.init();
+    is_resized_ = true;  // nothing of it is on the GPU
   }
   triangles_->setNumInstances(static_cast<int>(size()));
   upload();

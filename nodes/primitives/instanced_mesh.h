@@ -17,6 +17,7 @@
 
 #include "nodes/primitives/instance.h"
 #include "nodes/primitives/triangle_mesh.h"
+#include "scenegraph/layer.h"
 #include "scenegraph/pick/pick_hit.h"
 
 namespace stillframe::nodes {
@@ -53,6 +54,12 @@ class InstancedMesh {
   void setBlended(bool is_blended);
   /// Multiplies every copy's alpha; counts when blended.
   void setOpacity(double opacity);
+  /// What the driver takes in one texture buffer; copies that need more are not drawn, and have no box.
+  void setBufferTexels(std::uint64_t texels);
+  /// What size() copies need, where that is more than the driver takes; else 0.
+  [[nodiscard]] std::uint64_t texelsTooMany() const noexcept {
+    return texels_->size() > buffer_texels_ ? texels_->size() : 0;
+  }
   /// Call once after changes, before the next frame.
   void commit();
 
@@ -89,6 +96,7 @@ class InstancedMesh {
   bool is_resized_ = false;
   bool faces_viewer_ = false;
   bool is_dirty_ = false;
+  std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
   osg::BoundingBoxd box_;
 };
 

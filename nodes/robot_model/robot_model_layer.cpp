@@ -264,14 +264,11 @@ void RobotModelLayer::hang(LinkNode& link, const std::optional<std::string>& anc
     return;
   }
   if (link.anchor) {
-    if (osg::MatrixTransform* const parent = context_->frames.node(*link.anchor)) {
-      parent->removeChild(link.node);
-    }
-    context_->frames.release(*link.anchor);
+    context_->frames.unhang(link.anchor, *link.node);
   }
   link.anchor = anchor;
   if (link.anchor) {
-    context_->frames.acquire(*link.anchor).addChild(link.node);
+    context_->frames.hang(link.anchor, *link.node);
   }
 }
 
@@ -285,7 +282,9 @@ std::string RobotModelLayer::kinematicsText() const {
   const bool has_states = feed_ && feed_->sample() != nullptr && settings_.joints != "tf";
   return links + (has_states ? " and the joint states on '" + feed_->topic() + "'" : "") +
          (settings_.joints == "auto" ? ", for want of transforms" : "") +
-         (tally_.clamped > 0 ? "; " + std::to_string(tally_.clamped) + " joints are beyond their limits and held there"
+         (tally_.clamped > 0 ? "; " + std::to_string(tally_.clamped) +
+                                   (tally_.clamped == 1 ? " joint is beyond its limits and held there"
+                                                        : " joints are beyond their limits and held there")
                              : "");
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "nodes/buffer_limit.h"
 #include "nodes/osg_math.h"
 #include "nodes/points/record_fields.h"
 #include "nodes/points/value_histogram.h"
@@ -274,9 +275,8 @@ Status VoxelGridLayer::remark() const {
     return {StatusLevel::Info, "EmptyGrid", loadedText() + "the grid has no voxels"};
   }
   if (needed_texels_ > buffer_texels_) {
-    return {StatusLevel::Error, "BufferTooLarge",
-            loadedText() + "its " + std::to_string(product()->voxels()) + " voxels need a buffer of " +
-                std::to_string(needed_texels_) + " texels; this OpenGL driver takes " + std::to_string(buffer_texels_)};
+    return bufferTooLarge(loadedText() + "its " + std::to_string(product()->voxels()) + " voxels", needed_texels_,
+                          buffer_texels_);
   }
   if (product()->drawn(choice_->drawn_by, test_, choice_->mode == VoxelColorMode::Rgb) == 0) {
     return {StatusLevel::Info, "NothingDrawn",

@@ -204,6 +204,46 @@ TEST_F(MarkerPicture, DrawsAHundredThousandInOneCallAndOneChangeInPlace) {
   EXPECT_EQ(layer.counts()[3].second, 1U);
 }
 
+TEST_F(MarkerPicture, KeepsToWhatTheDriverTakesInABuffer) {
+  std::vector<SceneEntity> many;
+  for (int i = 0; i < 50; ++i) {
+    many.push_back(cube(std::to_string(i), -9.0 + 0.3 * i, 4, kRed, 0.2));
+  }
+  SceneEntity line = entityIn("map", "line");
+  line.lines.push_back({.type = LineType::Strip,
+                        .pose = at(-9, -4),
+                        .thickness = 0.5,
+                        .points = {},
+                        .color = kGreen,
+                        .colors = {},
+                        .indices = {}});
+  for (int i = 0; i < 60; ++i) {
+    line.lines[0].points.emplace_back(0.3 * i, 0, 0);
+  }
+  many.push_back(line);
+  open(datasetOf(sceneOf(std::move(many))), "map");
+  const auto& layer = add("/markers");
+  const int whole = drawnPixels(draw(1_s, fromAbove()));
+  ASSERT_EQ(layer.status(), scenegraph::Status{});
+
+  scene_->setBufferTexels(199);
+  const int line_alone = drawnPixels(draw(1_s, fromAbove()));
+  EXPECT_GT(line_alone, 500);
+  EXPECT_LT(line_alone, whole);
+  EXPECT_EQ(layer.status().code, "BufferTooLarge");
+  EXPECT_THAT(layer.status().message, HasSubstr("its 51 markers need a buffer of 200 texels"));
+  EXPECT_THAT(layer.status().message, HasSubstr("this OpenGL driver takes 199"));
+
+  scene_->setBufferTexels(59);
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+  EXPECT_EQ(layer.counts()[3].second, 0U);
+  EXPECT_FALSE(layer.boundsInFixed().valid());
+
+  scene_->setBufferTexels(200);
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), whole);
+  EXPECT_EQ(layer.status(), scenegraph::Status{});
+}
+
 TEST_F(MarkerPicture, SaysWhatItDoesNotDraw) {
   SceneEntity bad = entityIn("map", "bad");
   const double nan = std::numeric_limits<double>::quiet_NaN();

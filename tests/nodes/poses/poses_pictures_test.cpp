@@ -112,7 +112,8 @@ TEST_F(PosesPicture, SaysWhichPosesAreNotAsTheyShouldBe) {
   EXPECT_EQ(count("shapes"), 2U);
   EXPECT_EQ(count("dropped"), 1U);
   EXPECT_EQ(layer_->status().code, "PosesNotFinite");
-  for (const char* text : {"1 of 4 poses have a NaN or infinite place", "0 0 0 0", "infinite rotation", "norm 1"}) {
+  for (const char* text : {"1 of 4 poses has a NaN or infinite place", "1 of 4 poses has the rotation 0 0 0 0",
+                           "infinite rotation", "norm 1"}) {
     EXPECT_THAT(layer_->status().message, HasSubstr(text));
   }
   drawPoses(posesOf(PosesKind::Array, {}));
@@ -255,6 +256,36 @@ TEST_F(PosesPicture, DrawsEverySoManyOfTooManyShapes) {
   EXPECT_EQ(count("shapes"), 250U);
   EXPECT_EQ(layer_->status().code, "FewerShapes");
   EXPECT_THAT(layer_->status().message, HasSubstr("one pose in 4"));
+}
+
+TEST_F(PosesPicture, KeepsToWhatTheDriverTakesInABuffer) {
+  std::vector<glm::dvec3> corners;
+  for (int i = 0; i < 100; ++i) {
+    corners.emplace_back(-9.0 + 0.18 * i, i % 2, 0.0);
+  }
+  open(datasetOf(pointsOf(PosesKind::Path, corners)), "map");
+  layer_ = &add("/poses", {{"shape", "arrows"}, {"length", "1"}, {"line_width", "5"}});
+  const int whole = drawnPixels(draw(1_s, fromAbove()));
+  ASSERT_EQ(count("segments"), 99U);
+
+  scene_->setBufferTexels(399);
+  const int line_alone = drawnPixels(draw(1_s, fromAbove()));
+  EXPECT_GT(line_alone, 1000);
+  EXPECT_LT(line_alone, whole);
+  EXPECT_EQ(layer_->status().code, "BufferTooLarge");
+  EXPECT_THAT(layer_->status().message,
+              HasSubstr("its 100 poses need a buffer of 400 texels; this OpenGL driver takes 399"));
+  EXPECT_EQ(count("shapes"), 0U);
+  EXPECT_EQ(count("segments"), 99U);
+
+  scene_->setBufferTexels(99);
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+  EXPECT_EQ(count("segments"), 0U);
+  EXPECT_FALSE(layer_->boundsInFixed().valid());
+
+  scene_->setBufferTexels(400);
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), whole);
+  EXPECT_EQ(layer_->status(), scenegraph::Status{});
 }
 
 TEST_F(PosesPicture, IsTheSameOnTheFarSideOfTheEarth) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 namespace stillframe::nodes {
@@ -72,27 +71,22 @@ class Collector {
     if (last_ < out_.runs.size() && out_.runs[last_].key == key) {
       return out_.runs[last_];
     }
-    auto found = index_.find(key);
-    if (found == index_.end() && out_.runs.size() >= kMostRuns && key.cell != ShapeBatchKey{}.cell) {
+    auto found = std::ranges::find(out_.runs, key, &ShapeRun::key);
+    if (found == out_.runs.end() && out_.runs.size() >= kMostRuns && key.cell != ShapeBatchKey{}.cell) {
       const Instance before = instance;
       key.cell = {};
       instance = makeInstance(pose, scale, key.origin(), {color.r, color.g, color.b, color.a});
       instance.taper = before.taper;
       instance.id = before.id;
-      found = index_.find(key);
+      found = std::ranges::find(out_.runs, key, &ShapeRun::key);
     }
-    if (found == index_.end()) {
-      found = index_.emplace(key, out_.runs.size()).first;
-      out_.runs.push_back({key, 0, {}});
-    }
-    last_ = found->second;
-    return out_.runs[last_];
+    last_ = static_cast<std::size_t>(found - out_.runs.begin());
+    return found != out_.runs.end() ? *found : out_.runs.push_back({key, 0, {}});
   }
 
   bool use_cells_;
   bool is_judged_ = false;
   EntityShapes out_;
-  std::map<ShapeBatchKey, std::size_t> index_;
   std::size_t last_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "nodes/markers/few_of.h"
 #include "nodes/primitives/instance.h"
 #include "scenegraph/objects/scene_entities.h"
 
@@ -41,7 +42,7 @@ struct ShapeBatchKey {
 struct ShapeRun {
   ShapeBatchKey key;
   std::uint32_t first = 0;  ///< place in the batch, given by SceneHistory
-  std::vector<Instance> instances;
+  FewOf<Instance> instances;
 };
 
 /// A primitive as its message has it, for people; instances of it have its place in EntityShapes::sources as their id.
@@ -56,8 +57,8 @@ struct PrimitiveSource {
 [[nodiscard]] std::span<const char* const> sizeNames(PrimitiveSource::Kind kind) noexcept;
 
 struct EntityShapes {
-  std::vector<ShapeRun> runs;
-  std::vector<PrimitiveSource> sources;
+  FewOf<ShapeRun> runs;
+  FewOf<PrimitiveSource> sources;
   std::uint32_t unsound = 0;    ///< primitives whose numbers are not finite or beyond all reach: not drawn
   std::uint32_t flat = 0;       ///< drawn with a size of 0 along an axis
   std::uint32_t invisible = 0;  ///< of alpha 0: not drawn

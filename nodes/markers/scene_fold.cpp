@@ -66,10 +66,10 @@ SceneHistory::Fold::Fold(const SceneState& state, std::size_t at_place, std::uin
     }
     const LiveEntity* const entity = state.at(slot);
     if (entity == nullptr) {
-      free_slots_.insert(slot);
+      free_slots_.push(slot);
       continue;
     }
-    slots_.emplace(entity->id, slot);
+    slots_.insert(entity->id, slot);
     if (entity->expiry.ns != kNever) {
       expiries_.emplace(entity->expiry.ns, slot);
     }
@@ -131,6 +131,7 @@ void SceneHistory::Fold::apply(const SceneMessage& message) {
     return;
   }
   const SceneEntities& scene = **message.scene;
+  slots_.reserve(scene.entities.size());
   rest_.faults = scene.faults;
   for (const SceneEntities::Step& step : scene.steps) {
     if (step.is_deletion) {
@@ -173,8 +174,8 @@ void SceneHistory::Fold::add(const SceneEntity& entity, const std::shared_ptr<co
     made->expiry = {log_time.ns + entity.lifetime_ns};
   }
   made->shapes = shapesOf(entity, batches_.size() < kMostCells);
-  made->byte_size =
-      sizeof(LiveEntity) + bytesOf(made->shapes.sources) + 3 * entity.id.size() + entity.frame_id.size() + 64;
+  made->byte_size = sizeof(LiveEntity) + made->shapes.sources.byteSize() + made->shapes.runs.byteSize() +
+                    3 * entity.id.size() + entity.frame_id.size() + 64;
   for (const auto& [key, value] : entity.metadata) {
     made->byte_size += 64 + key.size() + value.size();
   }
@@ -183,7 +184,7 @@ void SceneHistory::Fold::add(const SceneEntity& entity, const std::shared_ptr<co
     points += list.points.size();
   }
   for (const ShapeRun& run : made->shapes.runs) {
-    made->byte_size += sizeof(run) + bytesOf(run.instances);
+    made->byte_size += run.instances.byteSize();
   }
   made->primitives =
       static_cast<std::uint32_t>(entity.arrows.size() + entity.cubes.size() + entity.spheres.size() +
@@ -205,34 +206,31 @@ void SceneHistory::Fold::add(const SceneEntity& entity, const std::shared_ptr<co
     }
     made->byte_size += bytesOfRest(entity);
   }
-  const auto known = slots_.find(entity.id);
-  const LiveEntity* const replaced =
-      known == slots_.end()
-          ? nullptr
-          : blocks_[known->second / SceneState::kBlock]->slots[known->second % SceneState::kBlock].get();
+  const auto known = slotOf(entity.id);
+  const LiveEntity* const replaced = known ? entityAt(*known) : nullptr;
   const std::size_t freed = replaced != nullptr ? replaced->byte_size : 0;
   if (rest_.totals.bytes - freed + made->byte_size > max_bytes_ || !placeRuns(*made, replaced)) {
     ++rest_.refused;
     if (replaced != nullptr) {
-      erase(known->second);  // what it was is no more, all the same
+      erase(*known);  // what it was is no more, all the same
     }
     return;
   }
   std::size_t slot = 0;
   if (replaced != nullptr) {
-    slot = known->second;
+    slot = *known;
     expiries_.erase({replaced->expiry.ns, slot});
   } else {
     if (free_slots_.empty()) {
       for (std::size_t i = 0; i < SceneState::kBlock; ++i) {
-        free_slots_.insert(free_slots_.end(), blocks_.size() * SceneState::kBlock + i);
+        free_slots_.push(blocks_.size() * SceneState::kBlock + i);
       }
       blocks_.push_back(std::make_shared<SceneState::Block>());
       blocks_.back()->epoch = epoch_;
     }
-    slot = *free_slots_.begin();
-    free_slots_.erase(free_slots_.begin());
-    slots_.emplace(entity.id, slot);
+    slot = free_slots_.top();
+    free_slots_.pop();
+    slots_.insert(entity.id, slot);
   }
   if (made->expiry.ns != kNever) {
     expiries_.emplace(made->expiry.ns, slot);
@@ -292,32 +290,33 @@ void SceneHistory::Fold::freeRuns(const LiveEntity& entity) {
   }
 }
 
+std::optional<std::size_t> SceneHistory::Fold::slotOf(std::string_view id) const {
+  return slots_.find(id, [this](std::size_t slot) -> std::string_view { return entityAt(slot)->id; });
+}
+
 void SceneHistory::Fold::erase(std::size_t slot) {
-  const LiveEntity& entity = *blocks_[slot / SceneState::kBlock]->slots[slot % SceneState::kBlock];
+  const LiveEntity& entity = *entityAt(slot);
   freeRuns(entity);
   expiries_.erase({entity.expiry.ns, slot});
-  slots_.erase(entity.id);
-  free_slots_.insert(slot);
+  slots_.erase(entity.id, slot);
+  free_slots_.push(slot);
   put(slot, nullptr);
   if (slots_.empty()) {
     blocks_.clear();
-    free_slots_.clear();
+    free_slots_ = {};
   }
 }
 
 void SceneHistory::Fold::remove(const SceneEntityDeletion& deletion) {
   if (deletion.type == SceneEntityDeletion::Type::MatchingId) {
-    const auto found = slots_.find(deletion.id);
-    if (found != slots_.end()) {
-      const std::size_t slot = found->second;
-      if (blocks_[slot / SceneState::kBlock]->slots[slot % SceneState::kBlock]->stamp <= deletion.stamp) {
-        erase(slot);
-      }
+    const auto slot = slotOf(deletion.id);
+    if (slot && entityAt(*slot)->stamp <= deletion.stamp) {
+      erase(*slot);
     }
     return;
   }
   for (std::size_t slot = 0; slot < blocks_.size() * SceneState::kBlock; ++slot) {
-    const LiveEntity* const entity = blocks_[slot / SceneState::kBlock]->slots[slot % SceneState::kBlock].get();
+    const LiveEntity* const entity = entityAt(slot);
     if (entity != nullptr && entity->stamp <= deletion.stamp &&
         (deletion.marker_namespace.empty() || entity->marker_namespace == deletion.marker_namespace)) {
       erase(slot);

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <functional>
+#include <queue>
+
 #include "nodes/markers/scene_history.h"
+#include "nodes/markers/slot_index.h"
 
 namespace stillframe::nodes {
 
@@ -27,6 +31,10 @@ class SceneHistory::Fold {
   void add(const scenegraph::SceneEntity& entity, const std::shared_ptr<const scenegraph::SceneEntities>& owner,
            tf::TimePoint log_time);
   void remove(const scenegraph::SceneEntityDeletion& deletion);
+  [[nodiscard]] std::optional<std::size_t> slotOf(std::string_view id) const;
+  [[nodiscard]] const LiveEntity* entityAt(std::size_t slot) const {
+    return blocks_[slot / SceneState::kBlock]->slots[slot % SceneState::kBlock].get();
+  }
   void erase(std::size_t slot);
   void endLifetimes(tf::TimePoint time);
   void put(std::size_t slot, std::shared_ptr<const LiveEntity> entity);
@@ -38,8 +46,8 @@ class SceneHistory::Fold {
   std::uint64_t epoch_ = 1;  // blocks of this epoch are nobody else's
   std::vector<std::shared_ptr<SceneState::Block>> blocks_;
   SceneState rest_;  // all but blocks and batches
-  std::unordered_map<std::string, std::size_t> slots_;
-  std::set<std::size_t> free_slots_;
+  SlotIndex slots_;
+  std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> free_slots_;  // the lowest first
   std::set<std::pair<std::int64_t, std::size_t>> expiries_;
   std::map<BatchId, PlaceList> batches_;
 };

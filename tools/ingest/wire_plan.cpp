@@ -9,7 +9,9 @@ namespace stillframe::ingest {
 
 /// Runs steps over a message. A step that fails leaves the name of its field.
 struct PlanRunner {
-  static constexpr std::size_t kMaxReserved = 4096;  // rows before the bytes for them have been seen
+  // Rows that room is made for at once: all, as long as they take no more memory than such messages do.
+  static constexpr std::size_t kMaxReserved = 4096;
+  static constexpr std::size_t kReservedPerByte = 16;
 
   const WirePlan& plan;
   std::uint64_t row_budget;  // bytes of rows that may still be made
@@ -82,9 +84,11 @@ struct PlanRunner {
       return false;
     }
     row_budget -= std::uint64_t{count} * op.row_bytes;
+    const std::size_t most =
+        std::max(kMaxReserved, kReservedPerByte * reader.left() / std::max<std::size_t>(op.row_bytes, 1));
     void* rows = op.locate == nullptr ? nullptr : op.locate(row);
     for (std::uint32_t i = 0; i < count; ++i) {
-      void* element_row = rows == nullptr ? nullptr : op.append(rows, std::min<std::size_t>(count, kMaxReserved));
+      void* element_row = rows == nullptr ? nullptr : op.append(rows, std::min<std::size_t>(count, most));
       if (!run(element, reader, element_row)) {
         return false;
       }

@@ -233,7 +233,7 @@ TEST(SceneHistory, NoPlaceHoldsTwoEntities) {
     const SceneState state = stream.state(history, time);
     std::map<std::pair<std::string, ShapeBatchKey>, std::set<std::uint32_t>> taken;
     for (std::size_t slot = 0; slot < state.slotCount(); ++slot) {
-      for (const ShapeRun& run : state.at(slot) != nullptr ? state.at(slot)->shapes.runs : std::vector<ShapeRun>{}) {
+      for (const ShapeRun& run : state.at(slot) != nullptr ? state.at(slot)->shapes.runs : FewOf<ShapeRun>{}) {
         for (std::uint32_t i = 0; i < run.instances.size(); ++i) {
           ASSERT_TRUE((taken[{state.at(slot)->frame_id, run.key}].insert(run.first + i).second));
         }

@@ -228,7 +228,8 @@ void appendMarker(MarkerRow& marker, const MessageView& payloads, scenegraph::Sc
   const auto named = [&](const std::string& fault) {
     return sentence("the marker '", marker.ns, "' ", marker.id, " ", fault);
   };
-  std::string id = sentence(marker.ns.size(), ":", marker.ns, ":", marker.id);
+  std::string id = std::to_string(marker.ns.size());
+  id.append(1, ':').append(marker.ns).append(1, ':').append(std::to_string(marker.id));
   switch (marker.action) {
     case Add: {
       SceneEntity& entity = out.entities.emplace_back();

@@ -61,6 +61,8 @@ Created rosMarkers(const SchemaRecord& schema, std::string_view message_encoding
                          [](MarkersRow& row, const MessageView& payloads) -> Decoder::Result {
                            scenegraph::SceneEntities scene;
                            scene.payload_bytes = payloads.data.size();
+                           scene.entities.reserve(row.markers.size());
+                           scene.steps.reserve(row.markers.size());
                            for (MarkerRow& marker : row.markers) {
                              appendMarker(marker, payloads, scene);
                            }

@@ -63,8 +63,9 @@ std::string costText(const LayerCost& cost) {
   const auto add = [&](const char* what, const std::optional<double>& ms) {
     std::array<char, 32> number{};
     if (ms) {
-      std::snprintf(number.data(), number.size(), "%.3g", *ms);
-      text += what + std::string(number.data()) + " ms";
+      const bool is_long = *ms >= 999.5;
+      std::snprintf(number.data(), number.size(), is_long ? "%.1f" : "%.3g", is_long ? 1e-3 * *ms : *ms);
+      text += what + std::string(number.data()) + (is_long ? " s" : " ms");
     }
   };
   add(", decoded in ", cost.decode_ms);

@@ -7,6 +7,7 @@
 #include "nodes/buffer_limit.h"
 #include "nodes/osg_math.h"
 #include "scenegraph/placement.h"
+#include "scenegraph/store/tf_clock.h"
 
 namespace stillframe::nodes {
 
@@ -145,6 +146,15 @@ Status MarkersLayer::remark(tf::TimePoint time) const {
   if (state.undecodable > 0) {
     return {StatusLevel::Info, "UndecodableMessages",
             base + plural(state.undecodable, "earlier message") + " could not be read; what they did is not shown"};
+  }
+  if (state.totals.entities == 0) {
+    return {StatusLevel::Info, "NoMarkers",
+            base + "no marker is there at " + scenegraph::timeText(time) +
+                ": all have been deleted or their lifetime has ended"};
+  }
+  if (counts.entities == 0) {
+    return {StatusLevel::Info, "NamespacesHidden",
+            base + plural(counts.hidden, "marker") + ", all in namespaces that are switched off"};
   }
   if (const auto moved = movedFrame(time)) {
     return {StatusLevel::Info, "NotFrameLocked",

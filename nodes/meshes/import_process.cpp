@@ -246,7 +246,7 @@ ImportLimits importLimits(std::size_t file_bytes) noexcept {
   constexpr std::size_t kMostSeconds = 300;
   ImportLimits limits;
   limits.cpu_s += static_cast<std::uint32_t>(std::min(file_bytes / kBytesPerSecond, kMostSeconds));
-  limits.wall_s = 5 + 3 * limits.cpu_s;
+  limits.wall_s = 5 + 2 * limits.cpu_s;
   limits.memory_bytes += 12 * static_cast<std::uint64_t>(std::min(file_bytes, std::size_t{1} << 32U));
   return limits;
 }

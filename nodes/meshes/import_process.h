@@ -31,7 +31,7 @@ struct ImportRequest {
 [[nodiscard]] ImportLimits importLimits(std::size_t file_bytes) noexcept;
 
 /// Imports a mesh in a child process; blocks for as long as that takes (a few milliseconds for the process itself, at
-/// most three times the limit of CPU time). Whatever the file does to the importer, here it is a status:
+/// most twice the limit of CPU time and 5 s). Whatever the file does to the importer, here it is a status:
 /// "MeshUnreadable", "MeshImportCrashed", "MeshImportHung", "MeshTooLarge", "NoMeshImporter", "MeshImportGarbled". Any
 /// thread.
 [[nodiscard]] std::expected<MeshData, scenegraph::Status> importInProcess(const ImportRequest& request);

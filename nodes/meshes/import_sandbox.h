@@ -8,8 +8,8 @@ namespace stillframe::nodes {
 struct ImportLimits {
   std::uint64_t memory_bytes = std::uint64_t{6} << 30U;  ///< address space
   std::uint64_t output_bytes = std::uint64_t{2} << 30U;  ///< of the mesh
-  std::uint32_t cpu_s = 20;
-  std::uint32_t wall_s = 65;  ///< the parent ends it then
+  std::uint32_t cpu_s = 10;
+  std::uint32_t wall_s = 25;  ///< the parent ends it then
 };
 
 /// Confines the calling process for good: memory, CPU time, size of written files, no core dump, dies with its parent;

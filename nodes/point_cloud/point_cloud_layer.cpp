@@ -196,10 +196,14 @@ Status PointCloudLayer::remark() const {
   }
   const ConvertedCloud& cloud = product()->converted();
   if (const std::size_t dropped = cloud.not_finite + cloud.out_of_reach; dropped > 0) {
+    std::string why = cloud.out_of_reach == 0 ? "a NaN or infinite coordinate" : "farther than 1e15 m";
+    if (cloud.not_finite > 0 && cloud.out_of_reach > 0) {
+      why = std::to_string(cloud.not_finite) + " with a NaN or infinite coordinate, " +
+            std::to_string(cloud.out_of_reach) + " farther than 1e15 m";
+    }
     return {StatusLevel::Info, "PointsDropped",
             loadedText() + std::to_string(dropped) + " of " + std::to_string(dropped + cloud.points) +
-                " points are not drawn: " + std::to_string(cloud.not_finite) + " with a NaN or infinite coordinate, " +
-                std::to_string(cloud.out_of_reach) + " farther than 1e15 m"};
+                " points are not drawn: " + why};
   }
   return feedRemark();
 }

@@ -280,6 +280,14 @@ Status PosesLayer::remark() const {
                           buffer_texels_);
   }
   remarkFaults(remarks, on_line);
+  if (on_line.source().poses.empty()) {
+    remarks.add("NoPoses", "the message has no poses");
+  } else if (chosen().line != "off" && !shapes_->box().valid() &&
+             (poses.source().kind == PosesKind::Path || poses.source().kind == PosesKind::Polygon) &&
+             on_line.faults().not_finite + on_line.faults().out_of_reach == 0) {
+    remarks.add("NothingDrawn", posesText(on_line.source().poses.size()) +
+                                    " at one place, which makes no line; with shape=triads it is seen");
+  }
   if (shapes_->showsRotations()) {
     remarkRotations(remarks, poses);
   }

@@ -72,9 +72,27 @@ void RobotModelLayer::collectNodes(std::vector<osg::Node*>& nodes) const {
   }
 }
 
+std::string RobotModelLayer::kinematicsText() const {
+  const std::string links = std::to_string(tally_.by_kinematics) + " of " + std::to_string(nodes_.size()) +
+                            " links are placed by the description's joints";
+  if (tally_.is_at_zero) {
+    return links + ", which stand at zero: " +
+           (settings_.joints == "zero" ? "as set" : "there are neither transforms nor joint states for them");
+  }
+  const bool has_states = feed_ && feed_->sample() != nullptr && settings_.joints != "tf";
+  return links + (has_states ? " and the joint states on '" + feed_->topic() + "'" : "") +
+         (settings_.joints == "auto" ? ", for want of transforms" : "") +
+         (tally_.clamped > 0 ? "; " + std::to_string(tally_.clamped) +
+                                   (tally_.clamped == 1 ? " joint is beyond its limits and held there"
+                                                        : " joints are beyond their limits and held there")
+                             : "");
+}
+
 std::string RobotModelLayer::faultText() const {
   const auto& faults = scene_->faults();
-  std::string text = std::to_string(faults.size()) + " of its shapes are boxes in place of meshes: ";
+  std::string text =
+      std::to_string(faults.size()) + (faults.size() == 1 ? " of its shapes is a box in place of a mesh: "
+                                                          : " of its shapes are boxes in place of meshes: ");
   for (std::size_t i = 0; i < std::min(faults.size(), kMostNamedFaults); ++i) {
     text += (i == 0 ? "link '" : "; link '") + faults[i].link + "': " + faults[i].status.message;
   }

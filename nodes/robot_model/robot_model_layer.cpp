@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "nodes/meshes/import_process.h"
 #include "nodes/osg_math.h"
 #include "scenegraph/objects/robot_description.h"
 #include "scenegraph/placement.h"
@@ -272,22 +273,6 @@ void RobotModelLayer::hang(LinkNode& link, const std::optional<std::string>& anc
   }
 }
 
-std::string RobotModelLayer::kinematicsText() const {
-  const std::string links = std::to_string(tally_.by_kinematics) + " of " + std::to_string(nodes_.size()) +
-                            " links are placed by the description's joints";
-  if (tally_.is_at_zero) {
-    return links + ", which stand at zero: " +
-           (settings_.joints == "zero" ? "as set" : "there are neither transforms nor joint states for them");
-  }
-  const bool has_states = feed_ && feed_->sample() != nullptr && settings_.joints != "tf";
-  return links + (has_states ? " and the joint states on '" + feed_->topic() + "'" : "") +
-         (settings_.joints == "auto" ? ", for want of transforms" : "") +
-         (tally_.clamped > 0 ? "; " + std::to_string(tally_.clamped) +
-                                   (tally_.clamped == 1 ? " joint is beyond its limits and held there"
-                                                        : " joints are beyond their limits and held there")
-                             : "");
-}
-
 /// Why a link has no place, of a robot of which others have: by its frame, or by the joint above it.
 std::string RobotModelLayer::unplacedText(std::size_t link) const {
   using enum tf::LookupError;
@@ -306,7 +291,14 @@ std::string RobotModelLayer::unplacedText(std::size_t link) const {
 
 Status RobotModelLayer::judge() const {
   if (scene_ == nullptr || loader_->status().level == StatusLevel::Error) {
-    return loader_->status();
+    Status status = loader_->status();
+    if (status.code == "Decoding") {
+      const ImportLimits limits = importLimits(0);
+      status.message += ", with its meshes; one that is not read within " + std::to_string(limits.cpu_s) +
+                        " s of computing, or " + std::to_string(limits.wall_s) +
+                        " s in all, is given up (large ones have longer)";
+    }
+    return status;
   }
   if (tally_.placed == 0 && tally_.failure) {
     return scenegraph::placementStatus(context_->frames, nodes_.front().frame, *tally_.failure);
@@ -327,9 +319,11 @@ Status RobotModelLayer::judge() const {
       std::ranges::any_of(scene_->robot().links, [](const RobotLink& l) { return !l.visuals.empty(); });
   const bool has_shapes =
       std::ranges::any_of(scene_->robot().links, [](const RobotLink& l) { return !l.collisions.empty(); });
-  if (!has_visuals && has_shapes && !settings_.collision) {
+  if (!has_visuals && !(has_shapes && settings_.collision)) {
     return {StatusLevel::Info, "NoVisuals",
-            sample + "none of its links has a visual shape; its collision shapes are seen with 'collision' on"};
+            sample + (has_shapes ? "none of its links has a visual shape; its collision shapes are seen with "
+                                   "'collision' on"
+                                 : "none of its links has a shape: there is nothing to draw")};
   }
   if (tally_.by_kinematics > 0) {
     return {StatusLevel::Info, tally_.is_at_zero ? "JointsAtZero" : "ForwardKinematics", sample + kinematicsText()};

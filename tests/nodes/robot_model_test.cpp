@@ -131,6 +131,13 @@ TEST_F(RobotModelPicture, CollisionShapesAndLinksAreSwitchedAlone) {
   EXPECT_EQ(pixel(draw(1_s, fromAbove()), 100, 100), (Bytes3{255, 0, 0}));
 }
 
+TEST_F(RobotModelPicture, SaysThatARobotHasNoShapes) {
+  const auto& layer = show(R"(<robot name="bare"><link name="base"/></robot>)");
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+  EXPECT_EQ(layer.status().code, "NoVisuals");
+  EXPECT_THAT(layer.status().message, HasSubstr("none of its links has a shape"));
+}
+
 TEST_F(RobotModelPicture, AMissingMeshLeavesABoxOfTheLinksSizeAndItsName) {
   const auto& layer = show(
       R"(<robot name="r"><link name="base"><visual><geometry><mesh filename="package://gone/part.stl"/></geometry></visual>

@@ -66,6 +66,10 @@ void printRemarks(const scenegraph::Scene& scene, const scenegraph::Dataset& dat
                   printable(status.message).c_str());
     }
   }
+  const auto isOfData = [](const auto& slot) { return slot->type->consumes != scenegraph::ObjectType::None; };
+  if (std::ranges::none_of(scene.layers(), isOfData) && dataset.transforms()->frameCount() == 0) {
+    std::puts("  nothing of the recording can be drawn: 'stillframe info' says why, topic by topic");
+  }
   for (const auto& problem : dataset.problems()) {
     std::printf("  problem, %s (%llu x): %s\n", problem.code.c_str(), static_cast<unsigned long long>(problem.count),
                 printable(problem.message).c_str());

@@ -143,6 +143,9 @@ Result<ViewOptions> ViewArguments::view() const {
       view.*member = *point;
     }
   }
+  if (view.eye && view.eye == view.look_at) {
+    return usageError("--eye and --look-at are the same point: there is no direction to look in");
+  }
   for (const std::string& text : layers_) {
     auto layer = parseLayer(text);
     if (!layer) {

@@ -28,6 +28,18 @@ std::uint32_t crcOfRange(const File& file, std::uint64_t begin, std::uint64_t en
   return crc;
 }
 
+/// What a file is that is no MCAP, and what to do with it.
+std::string_view contentOf(const File& file) {
+  std::array<std::byte, 16> first{};
+  const std::size_t got = file.read(0, first);
+  const std::string_view text(reinterpret_cast<const char*>(first.data()), got);
+  return text.starts_with("#ROSBAG V") ? "it is a bag of ROS 1; 'mcap convert IN.bag OUT.mcap' makes one of it"
+         : text.starts_with("SQLite format")
+             ? "it is a database, as ROS 2 bags were; 'ros2 bag convert' makes one of it"
+         : text.starts_with("<") ? "it is XML; --robot shows a URDF with a recording, --layout takes a layout"
+                                 : "it does not begin with the MCAP magic bytes";
+}
+
 }  // namespace
 
 std::expected<std::unique_ptr<McapFile>, scenegraph::Status> McapFile::open(const std::filesystem::path& path) {
@@ -41,8 +53,8 @@ std::expected<std::unique_ptr<McapFile>, scenegraph::Status> McapFile::open(cons
   if (got != magic.size() || std::memcmp(magic.data(), kMcapMagic.data(), magic.size()) != 0) {
     return std::unexpected(scenegraph::Status{
         scenegraph::StatusLevel::Error, "NotMcap",
-        sentence("'", path.string(), "' is not an MCAP file: ",
-                 mcap->file_->size() == 0 ? "it is empty" : "it does not begin with the MCAP magic bytes")});
+        sentence("'", path.string(),
+                 "' is not an MCAP file: ", mcap->file_->size() == 0 ? "it is empty" : contentOf(*mcap->file_))});
   }
   if (const auto footer = mcap->readFooter(); footer && footer->summary_start != 0) {
     auto index = mcap->readSummary(*footer);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 
+#include "nodes/markers/markers_settings.h"
 #include "scenegraph/objects/scene_entities.h"
 #include "tests/nodes/markers/marker_builder.h"
 #include "tests/nodes/scene_picture.h"
@@ -242,6 +243,27 @@ TEST_F(MarkerPicture, KeepsToWhatTheDriverTakesInABuffer) {
   scene_->setBufferTexels(200);
   EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), whole);
   EXPECT_EQ(layer.status(), scenegraph::Status{});
+}
+
+TEST_F(MarkerPicture, SaysWhyThereIsNothing) {
+  SceneEntity brief = cube("brief", 5, 5, kGreen);
+  brief.lifetime_ns = 1_s;
+  open(DatasetBuilder()
+           .topic("/tf", ObjectType::FrameTransforms)
+           .transform(0, "map", "base")
+           .topic("/markers", ObjectType::SceneEntities)
+           .at(1_s, sceneOf({brief}))
+           .build(),
+       "map");
+  auto& layer = add("/markers");
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 400);
+  EXPECT_EQ(layer.status(), scenegraph::Status{});
+  ASSERT_TRUE(layer.applySettings({{nodes::namespaceKey("brief"), "false"}}));
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+  EXPECT_EQ(layer.status().code, "NamespacesHidden");
+  EXPECT_EQ(drawnPixels(draw(2_s, fromAbove())), 0);
+  EXPECT_EQ(layer.status().code, "NoMarkers");
+  EXPECT_THAT(layer.status().message, HasSubstr("deleted or their lifetime has ended"));
 }
 
 TEST_F(MarkerPicture, SaysWhatItDoesNotDraw) {

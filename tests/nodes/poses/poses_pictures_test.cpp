@@ -117,8 +117,11 @@ TEST_F(PosesPicture, SaysWhichPosesAreNotAsTheyShouldBe) {
     EXPECT_THAT(layer_->status().message, HasSubstr(text));
   }
   drawPoses(posesOf(PosesKind::Array, {}));
-  EXPECT_EQ(layer_->status(), scenegraph::Status{});
+  EXPECT_EQ(layer_->status().code, "NoPoses");
   EXPECT_FALSE(scene_->boundsInFixed().valid());
+  drawPoses(pointsOf(PosesKind::Path, {{1, 2, 3}, {1, 2, 3}}));
+  EXPECT_EQ(layer_->status().code, "NothingDrawn");
+  EXPECT_THAT(layer_->status().message, HasSubstr("2 poses at one place, which makes no line"));
 }
 
 TEST_F(PosesPicture, DrawsAPathOfAnyWidthColouredByTime) {

@@ -219,6 +219,7 @@ TEST(RenderCommand, RefusesWhatIsNotThere) {
       {{"--eye", "1,2"}, "--eye"},
       {{"--look-at", "nan,0,0"}, "--look-at"},
       {{"--fov", "180"}, "--fov"},
+      {{"--eye", "1,2,3", "--look-at", "1,2,3.0"}, "the same point"},
       {{"--camera", "spherical"}, "topdown"},
       {{"--camera", "topdown", "--ortho-height", "0"}, "--ortho-height"},
       {{"--ortho-height", "5"}, "--camera topdown"},

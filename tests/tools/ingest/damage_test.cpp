@@ -250,6 +250,14 @@ TEST(OpenRecording, NamesWhatCannotBeOpened) {
   const std::string content = "this is not an MCAP file at all";
   text.assign(std::as_bytes(std::span(content)));
   EXPECT_EQ(code(text.path()), "NotMcap");
+  for (const auto& [begin, hint] : {std::pair<std::string, std::string>{"#ROSBAG V2.0\n", "'mcap convert "},
+                                    {"SQLite format 3", "'ros2 bag convert'"},
+                                    {"<?xml version='1.0'?>", "--robot"}}) {
+    const TemporaryFile other("other");
+    other.assign(std::as_bytes(std::span(begin)));
+    const std::filesystem::path path = other.path();
+    EXPECT_THAT(Recording::open(std::span(&path, 1)).error().message, testing::HasSubstr(hint));
+  }
 }
 
 TEST(OpenRecording, MergesThePartsOfASplitRecording) {

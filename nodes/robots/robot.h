@@ -29,8 +29,8 @@ struct RobotShape {
 struct RobotLink {
   std::string name;
   std::int32_t parent_joint = -1;  ///< -1: the root
-  std::vector<RobotShape> visuals;
-  std::vector<RobotShape> collisions;
+  std::vector<RobotShape> visuals = {};
+  std::vector<RobotShape> collisions = {};
 };
 
 enum class RobotJointKind : std::uint8_t { Fixed, Revolute, Continuous, Prismatic, Planar, Floating };

@@ -82,11 +82,11 @@ const std::vector<PackedField> kSeparateFields = {{"x", 0, FieldType::Float32}, 
                                                   {"a", 24, FieldType::Float32}};
 
 TEST(PointColors, ScalesSeparateFloatsByTheirLargest) {
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT(colorsOf(makeCloud<Separate>(kSeparateFields, std::vector<Separate>{{0, 0, 0, 0, 0.5F, 1, 0.1F}})),
               ElementsAre(0, 128, 255, 255));
-  EXPECT_THAT(colorsOf(makeCloud<Separate>(
-                  kSeparateFields, std::vector<Separate>{{0, 0, 0, -3, 128, 1e9F, 0}, {0, 0, 0, kNan, 1, 255, 0}})),
+  EXPECT_THAT(colorsOf(makeCloud<Separate>(kSeparateFields, std::vector<Separate>{{0, 0, 0, -3, 128, 1e9F, 0},
+                                                                                  {0, 0, 0, kNoNumber, 1, 255, 0}})),
               ElementsAre(0, 128, 255, 255, 0, 1, 255, 255));
 }
 
@@ -157,9 +157,10 @@ TEST(Channels, KeepLargeIntegersApart) {
 
 TEST(Channels, ReplaceWhatIsNotFinite) {
   const auto bits = [](float v) { return std::bit_cast<std::uint32_t>(v); };
-  constexpr float kInf = std::numeric_limits<float>::infinity();
-  const auto cloud = packedCloud("intensity", FieldType::Float32,
-                                 {bits(std::numeric_limits<float>::quiet_NaN()), bits(kInf), bits(-kInf), bits(2.0F)});
+  constexpr float kEndless = std::numeric_limits<float>::infinity();
+  const auto cloud =
+      packedCloud("intensity", FieldType::Float32,
+                  {bits(std::numeric_limits<float>::quiet_NaN()), bits(kEndless), bits(-kEndless), bits(2.0F)});
   const auto converted = convert(cloud);
   std::vector<float> values(4);
   const auto channel = nodes::convertChannel(cloud, converted->cloud, nodes::listChannels(cloud)[0], values);

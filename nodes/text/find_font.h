@@ -2,10 +2,18 @@
 
 #include <osg/ref_ptr>
 #include <osgText/Font>
+#include <string_view>
 
 namespace stillframe::nodes {
 
 /// DejaVu or Liberation where Debian installs them; nullptr where there is neither. Reads a file: ask once.
 [[nodiscard]] osg::ref_ptr<osgText::Font> findFont();
+
+/// Of Chinese, Japanese and Korean too, with Latin letters beside: WenQuanYi or Noto; nullptr where there is neither.
+/// Reads a file of megabytes: ask once.
+[[nodiscard]] osg::ref_ptr<osgText::Font> findEastAsianFont();
+
+/// Whether a text holds characters of Chinese, Japanese or Korean, which findFont() has not.
+[[nodiscard]] bool isEastAsian(std::string_view utf8) noexcept;
 
 }  // namespace stillframe::nodes

@@ -21,7 +21,7 @@ std::string_view cutUtf8(std::string_view text, std::size_t most) {
 }  // namespace
 
 osg::ref_ptr<osg::Node> TextMaker::make(std::string_view utf8, const TextStyle& style) {
-  const osg::ref_ptr<osgText::Text> text = parts_.makeText();
+  const osg::ref_ptr<osgText::Text> text = parts_.makeText(std::string(cutUtf8(utf8, kMostBytes)));
   if (!style.is_in_pixels) {
     text->setFontResolution(kGlyphTexels, kGlyphTexels);
   }
@@ -29,7 +29,6 @@ osg::ref_ptr<osg::Node> TextMaker::make(std::string_view utf8, const TextStyle& 
   text->setCharacterSize(static_cast<float>(style.height));
   text->setAxisAlignment(style.faces_viewer ? osgText::TextBase::SCREEN : osgText::TextBase::XY_PLANE);
   text->setAlignment(style.is_centred ? osgText::TextBase::CENTER_CENTER : osgText::TextBase::LEFT_BOTTOM);
-  text->setText(std::string(cutUtf8(utf8, kMostBytes)), osgText::String::ENCODING_UTF8);
   text->setColor(toOsg(style.color));
   return parts_.makeLabel(text);
 }

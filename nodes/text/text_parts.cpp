@@ -29,16 +29,22 @@ void TextParts::look() {
   }
 }
 
-osg::ref_ptr<osgText::Text> TextParts::makeText() {
+osg::ref_ptr<osgText::Text> TextParts::makeText(const std::string& utf8) {
   look();
   osg::ref_ptr<osgText::Text> text = new osgText::Text;
   text->setName("label");
   text->setUseDisplayList(false);
   text->setUseVertexBufferObjects(true);
   text->setUseVertexArrayObject(false);
-  if (font_.valid()) {
-    text->setFont(font_);
+  if (isEastAsian(utf8) && !has_looked_east_) {
+    east_asian_ = findEastAsianFont();
+    has_looked_east_ = true;
   }
+  const auto& font = east_asian_.valid() && isEastAsian(utf8) ? east_asian_ : font_;
+  if (font.valid()) {
+    text->setFont(font);
+  }
+  text->setText(utf8, osgText::String::ENCODING_UTF8);
   // What its quads cover is not all glyph: depth of them would leave holes in what is blended behind, by the order
   // drawn.
   text->setEnableDepthWrites(false);

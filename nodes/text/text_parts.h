@@ -6,6 +6,7 @@
 #include <osg/ref_ptr>
 #include <osgText/Font>
 #include <osgText/Text>
+#include <string>
 
 namespace stillframe::nodes {
 
@@ -13,7 +14,8 @@ namespace stillframe::nodes {
 /// whose texts share the state.
 ///
 /// The font is looked for with the first text: DejaVu or Liberation where Debian installs them, else the one built into
-/// OSG. GUI thread.
+/// OSG. OSG draws a text in one font: one with Chinese, Japanese or Korean is drawn in one that has them, where there
+/// is such a font. GUI thread.
 class TextParts {
  public:
   enum class Place : std::uint8_t {
@@ -22,8 +24,8 @@ class TextParts {
   };
   explicit TextParts(Place place) : place_(place) {}
 
-  /// A text in the font, empty as yet. Never culled: its extent depends on the camera.
-  [[nodiscard]] osg::ref_ptr<osgText::Text> makeText();
+  /// A text that says this, in a font that has its characters. Never culled: its extent depends on the camera.
+  [[nodiscard]] osg::ref_ptr<osgText::Text> makeText(const std::string& utf8);
   /// `text` with the state that draws it, ready to be hung somewhere.
   [[nodiscard]] osg::ref_ptr<osg::Node> makeLabel(const osg::ref_ptr<osgText::Text>& text);
 
@@ -32,6 +34,8 @@ class TextParts {
 
   Place place_;
   osg::ref_ptr<osgText::Font> font_;
+  osg::ref_ptr<osgText::Font> east_asian_;  // none before the first such text
+  bool has_looked_east_ = false;
   osg::ref_ptr<osg::StateSet> state_;  // none before the first text
 };
 

@@ -25,12 +25,11 @@ void expectChanges(osgText::Text& text) {
 }  // namespace
 
 osg::ref_ptr<osg::Node> FrameLabels::make(const std::string& name, double height_px, const scenegraph::Color& color) {
-  const osg::ref_ptr<osgText::Text> text = parts_.makeText();
+  const osg::ref_ptr<osgText::Text> text = parts_.makeText(name);
   text->setCharacterSizeMode(osgText::TextBase::SCREEN_COORDS);
   text->setCharacterSize(static_cast<float>(height_px));
   text->setAxisAlignment(osgText::TextBase::SCREEN);
   text->setAlignment(osgText::TextBase::LEFT_BOTTOM);
-  text->setText(name, osgText::String::ENCODING_UTF8);
   text->setColor(toOsg(color));
   expectChanges(*text);
   return parts_.makeLabel(text);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "nodes/text/find_font.h"
 #include "tests/nodes/markers/marker_builder.h"
 #include "tests/nodes/scene_picture.h"
 
@@ -58,6 +59,25 @@ TEST_F(TextPicture, LeavesNoHolesInWhatIsBlendedBehindItWhateverTheOrder) {
     EXPECT_GE(text_first.rgb[i], std::min(glyphs.rgb[i], panes.rgb[i]));
   }
   EXPECT_EQ(holes, 0);
+}
+
+TEST_F(TextPicture, HasCharactersOfTheFarEastBesideLatinOnes) {
+  const auto drawn = [this](const std::string& text) { return drawInOrder({words(text)}).rgb; };
+  for (const auto& [one, other] : {std::pair{"\u7bb1", "\u7bc6"}, {"\u306f", "\u3072"}, {"\uac00", "\ub098"}}) {
+    EXPECT_FALSE(drawn(one) == drawn(other)) << one << " and " << other << " are no boxes";
+  }
+  EXPECT_FALSE(drawn("A\u7bb1") == drawn("B\u7bb1"));
+}
+
+TEST(Fonts, KnowTextsOfTheFarEast) {
+  for (const char* text :
+       {"", "obj 99", "\u00c4\u00f6\u20ac", "\u041f\u0440\u0438", "\u2192 \u2122", "\ufb01", "\xe9"}) {
+    EXPECT_FALSE(nodes::isEastAsian(text)) << text;
+  }
+  for (const char* text :
+       {"\u2e80", "\u3042", "a\u4e00b", "\u9fff", "\uac00", "\ud7a3", "\uf900", "\uff21", "\U00020000"}) {
+    EXPECT_TRUE(nodes::isEastAsian(text)) << text;
+  }
 }
 
 TEST_F(TextPicture, IsHiddenByWhatIsOpaqueBeforeItAndSeenThroughWhatIsNot) {

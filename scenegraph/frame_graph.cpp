@@ -14,6 +14,17 @@ namespace stillframe::scenegraph {
 namespace {
 
 constexpr osg::Node::NodeMask kShown = ~0U;
+constexpr std::size_t kAsksAhead = 8;
+
+/// Has the memory come that posing a node reads and writes: nodes lie all over it.
+void askFor(const osg::MatrixTransform& node) {
+  constexpr std::ptrdiff_t kLine = 64;
+  const char* const first = reinterpret_cast<const char*>(&node);
+  const char* const end = first + sizeof node;
+  for (const char* line = first; line < end; line += kLine) {
+    __builtin_prefetch(line, 1);
+  }
+}
 
 /// The state must not depend on which of 0 and -0 was there before.
 bool isSameByBits(const tf::RigidTransform& a, const tf::RigidTransform& b) {
@@ -67,16 +78,21 @@ void FrameGraph::setTick(std::string_view fixed_frame, tf::TimePoint time) {
   }
   const bool has_new_ids = ids_revision_ != snapshot_.revision;
   ids_revision_ = snapshot_.revision;
-  for (auto& [frame, node] : nodes_) {
-    if (has_new_ids) {
-      node.id = idOf(frame);
+  const auto fixed = fixed_frame_.empty() ? places_.end() : places_.find(fixed_frame_);
+  const std::size_t place_of_fixed = fixed == places_.end() ? nodes_.size() : fixed->second;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (i + kAsksAhead < nodes_.size()) {
+      askFor(*nodes_[i + kAsksAhead].transform);
     }
-    pose(frame, node);
+    Node& node = nodes_[i];
+    if (has_new_ids) {
+      node.id = idOf(node.transform->getName());
+    }
+    pose(node, i == place_of_fixed ? Pose{} : poseInTree(node.id));
   }
 }
 
-void FrameGraph::pose(const std::string& frame, Node& node) {
-  const Pose fixed_from_frame = poseOf(frame, node.id);
+void FrameGraph::pose(Node& node, const Pose& fixed_from_frame) {
   const osg::Node::NodeMask mask = fixed_from_frame ? kShown : 0U;
   if (fixed_from_frame && !isSameByBits(node.posed, *fixed_from_frame)) {
     node.transform->setMatrix(osg::Matrixd(glm::value_ptr(tf::toMatrix(*fixed_from_frame))));
@@ -90,30 +106,37 @@ void FrameGraph::pose(const std::string& frame, Node& node) {
 }
 
 osg::MatrixTransform& FrameGraph::acquire(std::string_view frame) {
-  const auto [found, is_new] = nodes_.try_emplace(std::string(tf::stripLeadingSlashes(frame)));
-  Node& node = found->second;
+  const auto [found, is_new] = places_.try_emplace(std::string(tf::stripLeadingSlashes(frame)), nodes_.size());
   if (is_new) {
-    node.transform = new osg::MatrixTransform;
-    node.transform->setName(found->first);
-    node.transform->setDataVariance(osg::Object::DYNAMIC);
-    node.transform->setNodeMask(0U);
-    node.id = idOf(found->first);
-    pose(found->first, node);
-    root_->addChild(node.transform);
+    Node& made = nodes_.emplace_back();
+    made.transform = new osg::MatrixTransform;
+    made.transform->setName(found->first);
+    made.transform->setDataVariance(osg::Object::DYNAMIC);
+    made.transform->setNodeMask(0U);
+    made.id = idOf(found->first);
+    pose(made, poseOf(found->first, made.id));
+    root_->addChild(made.transform);
   }
+  Node& node = nodes_[found->second];
   ++node.users;
   ++hang_revision_;
   return *node.transform;
 }
 
 void FrameGraph::release(std::string_view frame) {
-  const auto found = nodes_.find(std::string(tf::stripLeadingSlashes(frame)));
+  const auto found = places_.find(std::string(tf::stripLeadingSlashes(frame)));
   ++hang_revision_;
-  if (found == nodes_.end() || --found->second.users > 0) {
+  if (found == places_.end() || --nodes_[found->second].users > 0) {
     return;
   }
-  root_->removeChild(found->second.transform);
-  nodes_.erase(found);
+  const std::size_t place = found->second;
+  root_->removeChild(nodes_[place].transform);
+  places_.erase(found);
+  if (place + 1 < nodes_.size()) {
+    nodes_[place] = std::move(nodes_.back());
+    places_[nodes_[place].transform->getName()] = place;
+  }
+  nodes_.pop_back();
 }
 
 void FrameGraph::hang(std::optional<std::string_view> frame, osg::Node& child) {
@@ -142,7 +165,7 @@ void FrameGraph::arrange(std::span<osg::Node* const> nodes) {
     return found == places.end() ? places.size() : found->second;
   };
   std::unordered_map<const osg::Node*, std::size_t> firsts;
-  for (const auto& [frame, node] : nodes_) {
+  for (const Node& node : nodes_) {
     sortChildren(*node.transform, placeOf);
     firsts[node.transform.get()] =
         node.transform->getNumChildren() > 0 ? placeOf(node.transform->getChild(0)) : places.size();
@@ -154,8 +177,8 @@ void FrameGraph::arrange(std::span<osg::Node* const> nodes) {
 }
 
 osg::MatrixTransform* FrameGraph::node(std::string_view frame) const {
-  const auto found = nodes_.find(std::string(tf::stripLeadingSlashes(frame)));
-  return found == nodes_.end() ? nullptr : found->second.transform.get();
+  const auto found = places_.find(std::string(tf::stripLeadingSlashes(frame)));
+  return found == places_.end() ? nullptr : nodes_[found->second].transform.get();
 }
 
 tf::FrameId FrameGraph::idOf(std::string_view frame) const { return buffer_->findFrame(frame).value_or(tf::kNoFrame); }
@@ -169,6 +192,10 @@ FrameGraph::Pose FrameGraph::poseOf(std::string_view frame, tf::FrameId source) 
   if (is_ticked_ && !frame.empty() && frame == fixed_frame_) {
     return tf::RigidTransform{};
   }
+  return poseInTree(source);
+}
+
+FrameGraph::Pose FrameGraph::poseInTree(tf::FrameId source) const {
   const auto failure = [&](tf::LookupError code) {
     return std::unexpected(tf::LookupFailure{.code = code,
                                              .target = snapshot_.root,

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "tf/transform_buffer.h"
 
@@ -54,6 +55,11 @@ class FrameGraph {
 
   /// fixed_from_frame at the current tick, or why there is none. The fixed frame in itself is always the identity.
   [[nodiscard]] std::expected<tf::RigidTransform, tf::LookupFailure> fixedFromFrame(std::string_view frame) const;
+  /// The same by the frame's id in the buffer as well, for who has it: no name is looked up.
+  [[nodiscard]] std::expected<tf::RigidTransform, tf::LookupFailure> fixedFromFrame(std::string_view frame,
+                                                                                    tf::FrameId id) const {
+    return poseOf(frame, id);
+  }
   /// All frames of the buffer at the current tick.
   [[nodiscard]] const tf::Snapshot& snapshot() const noexcept { return snapshot_; }
 
@@ -67,19 +73,21 @@ class FrameGraph {
 
  private:
   struct Node {
-    osg::ref_ptr<osg::MatrixTransform> transform;
+    osg::ref_ptr<osg::MatrixTransform> transform;  // named as the frame
     std::size_t users = 0;
     tf::FrameId id = tf::kNoFrame;  // in the buffer, as of ids_revision_
     tf::RigidTransform posed{};     // what its matrix says
   };
   using Pose = std::expected<tf::RigidTransform, tf::LookupFailure>;
-  void pose(const std::string& frame, Node& node);
+  void pose(Node& node, const Pose& fixed_from_frame);
   [[nodiscard]] tf::FrameId idOf(std::string_view frame) const;
   [[nodiscard]] Pose poseOf(std::string_view frame, tf::FrameId source) const;
+  [[nodiscard]] Pose poseInTree(tf::FrameId source) const;
 
   std::shared_ptr<const tf::TransformBuffer> buffer_;
   osg::ref_ptr<osg::Group> root_;
-  std::unordered_map<std::string, Node> nodes_;
+  std::vector<Node> nodes_;                              // side by side: a tick goes through all of them
+  std::unordered_map<std::string, std::size_t> places_;  // in nodes_, by frame
   std::string fixed_frame_;
   tf::TimePoint time_;
   bool is_ticked_ = false;

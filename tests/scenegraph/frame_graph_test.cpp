@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
+#include <set>
 
 #include "scenegraph/placement.h"
 #include "tests/support/builders.h"
@@ -81,6 +82,41 @@ TEST(FrameGraph, ATickThatChangesNothingCostsNothing) {
   ASSERT_TRUE(buffer->insert({"map", "base", {9_s}, translate(7, 0, 0)}));
   graph.setTick("map", {10_s});
   EXPECT_TRUE(graph.lastTick().snapshot_taken) << "the buffer has grown";
+}
+
+TEST(FrameGraph, FramesComeAndGoInAnyOrderAndTheRestStayPosed) {
+  constexpr std::size_t kFrames = 40;
+  const auto nameOf = [](std::size_t i) { return "frame" + std::to_string(i); };
+  TfBuilder builder;
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    builder.edge("map", nameOf(i));
+    for (int second = 0; second < 100; ++second) {
+      builder.at(second * 1_s, translate(static_cast<double>(i), second, 0));
+    }
+  }
+  FrameGraph graph{builder.build()};
+  Random random(8);
+  std::set<std::size_t> held;
+  for (int second = 0; second < 100; ++second) {
+    for (int change = 0; change < 15; ++change) {
+      if (const std::size_t i = random.index(kFrames); held.erase(i) == 1) {
+        graph.release(nameOf(i));
+      } else {
+        graph.acquire(nameOf(i));
+        held.insert(i);
+      }
+    }
+    graph.setTick("map", {second * 1_s});
+    ASSERT_EQ(graph.root().getNumChildren(), held.size());
+    for (std::size_t i = 0; i < kFrames; ++i) {
+      const osg::MatrixTransform* const node = graph.node(nameOf(i));
+      ASSERT_EQ(node != nullptr, held.contains(i));
+      if (node != nullptr) {
+        EXPECT_EQ(node->getName(), nameOf(i));
+        EXPECT_EQ(node->getMatrix().getTrans(), osg::Vec3d(static_cast<double>(i), second, 0));
+      }
+    }
+  }
 }
 
 TEST(FrameGraph, UnknownFixedFrameShowsOnlyWhatHangsInIt) {

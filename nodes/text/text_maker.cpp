@@ -21,10 +21,8 @@ std::string_view cutUtf8(std::string_view text, std::size_t most) {
 }  // namespace
 
 osg::ref_ptr<osg::Node> TextMaker::make(std::string_view utf8, const TextStyle& style) {
-  const osg::ref_ptr<osgText::Text> text = parts_.makeText(std::string(cutUtf8(utf8, kMostBytes)));
-  if (!style.is_in_pixels) {
-    text->setFontResolution(kGlyphTexels, kGlyphTexels);
-  }
+  const osg::ref_ptr<osgText::Text> text = parts_.makeText(std::string(cutUtf8(utf8, kMostBytes)),
+                                                           style.is_in_pixels ? TextParts::kUsualTexels : kGlyphTexels);
   text->setCharacterSizeMode(style.is_in_pixels ? osgText::TextBase::SCREEN_COORDS : osgText::TextBase::OBJECT_COORDS);
   text->setCharacterSize(static_cast<float>(style.height));
   text->setAxisAlignment(style.faces_viewer ? osgText::TextBase::SCREEN : osgText::TextBase::XY_PLANE);

@@ -2,6 +2,7 @@
 
 #include <osg/BlendFunc>
 #include <osg/Group>
+#include <osgText/Glyph>
 
 #include "generated/stillframe_nodes/shaders.h"
 #include "nodes/text/find_font.h"
@@ -29,21 +30,43 @@ void TextParts::look() {
   }
 }
 
-osg::ref_ptr<osgText::Text> TextParts::makeText(const std::string& utf8) {
+void TextParts::placeAscii(osgText::Font& font, unsigned texels) {
+  if (!placed_.insert({&font, texels}).second) {
+    return;
+  }
+  const osgText::ShaderTechnique technique = osg::ref_ptr(new osgText::Text)->getShaderTechnique();
+  for (unsigned code = ' '; code <= '~'; ++code) {
+    if (osgText::Glyph* const glyph = font.getGlyph({texels, texels}, code)) {
+      glyph->getOrCreateTextureInfo(technique);
+    }
+  }
+}
+
+osg::ref_ptr<osgText::Font> TextParts::fontFor(const std::string& utf8) {
+  if (isEastAsian(utf8)) {
+    if (!has_looked_east_) {
+      east_asian_ = findEastAsianFont();
+      has_looked_east_ = true;
+    }
+    if (east_asian_.valid()) {
+      return east_asian_;
+    }
+  }
+  return font_.valid() ? font_ : osgText::Font::getDefaultFont();
+}
+
+osg::ref_ptr<osgText::Text> TextParts::makeText(const std::string& utf8, unsigned texels) {
   look();
+  const osg::ref_ptr<osgText::Font> font = fontFor(utf8);
+  placeAscii(*font, kUsualTexels);
+  placeAscii(*font, texels);
   osg::ref_ptr<osgText::Text> text = new osgText::Text;
+  text->setFontResolution(texels, texels);
   text->setName("label");
   text->setUseDisplayList(false);
   text->setUseVertexBufferObjects(true);
   text->setUseVertexArrayObject(false);
-  if (isEastAsian(utf8) && !has_looked_east_) {
-    east_asian_ = findEastAsianFont();
-    has_looked_east_ = true;
-  }
-  const auto& font = east_asian_.valid() && isEastAsian(utf8) ? east_asian_ : font_;
-  if (font.valid()) {
-    text->setFont(font);
-  }
+  text->setFont(font);
   text->setText(utf8, osgText::String::ENCODING_UTF8);
   // What its quads cover is not all glyph: depth of them would leave holes in what is blended behind, by the order
   // drawn.

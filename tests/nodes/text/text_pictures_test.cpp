@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <osgDB/Registry>
+
 #include "nodes/text/find_font.h"
+#include "nodes/text/text_maker.h"
 #include "tests/nodes/markers/marker_builder.h"
 #include "tests/nodes/scene_picture.h"
 
@@ -59,6 +63,27 @@ TEST_F(TextPicture, LeavesNoHolesInWhatIsBlendedBehindItWhateverTheOrder) {
     EXPECT_GE(text_first.rgb[i], std::min(glyphs.rgb[i], panes.rgb[i]));
   }
   EXPECT_EQ(holes, 0);
+}
+
+TEST_F(TextPicture, IsTheSameWhateverWasWrittenBefore) {
+  // A font of its own for each picture: they are cached, and keep where its glyphs lie.
+  const auto drawAfter = [this](const std::string& before) {
+    osgDB::Registry::instance()->clearObjectCache();
+    nodes::TextMaker maker;
+    const auto texts =
+        std::array{maker.make(before, {.is_in_pixels = true}), maker.make(before, {.is_in_pixels = false})};
+    BytePicture all{};
+    for (const double size : {0.7, 1.1, 1.9, 3.3}) {  // each minified otherwise
+      SceneEntity text = words("marker 7\nWIDE, wide");
+      text.texts[0].font_size = size;
+      const BytePicture one = drawInOrder({text});
+      all.rgb.insert(all.rgb.end(), one.rgb.begin(), one.rgb.end());
+    }
+    return all;
+  };
+  const BytePicture plain = drawAfter("a");
+  EXPECT_TRUE(drawAfter("W@#%Qgy 0123 iIl").rgb == plain.rgb);
+  EXPECT_TRUE(drawAfter("edkraw").rgb == plain.rgb);
 }
 
 TEST_F(TextPicture, HasCharactersOfTheFarEastBesideLatinOnes) {

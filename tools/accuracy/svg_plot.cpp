@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "scenegraph/layout/xml_text.h"
+
 namespace stillframe::accuracy {
 namespace {
 
@@ -22,29 +24,16 @@ std::string number(double value) {
   return text.data();
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
+/// `markup` has its tags and entities already.
+void addMarkup(std::string& svg, double x, double y, const std::string& markup, const std::string& attributes) {
+  svg.append("<text x=\"").append(number(x)).append("\" y=\"").append(number(y)).append("\" ");
+  svg.append(attributes).append(">").append(markup).append("</text>\n");
 }
 
 void addText(std::string& svg, double x, double y, const std::string& text, const std::string& attributes) {
-  svg.append("<text x=\"").append(number(x)).append("\" y=\"").append(number(y)).append("\" ");
-  svg.append(attributes).append(">").append(text).append("</text>\n");
+  std::string markup;
+  scenegraph::appendXmlText(text, markup);
+  addMarkup(svg, x, y, markup, attributes);
 }
 
 void addLine(std::string& svg, double x1, double y1, double x2, double y2, const char* colour) {
@@ -119,12 +108,35 @@ void addMarker(std::string& svg, std::size_t series, double x, double y, bool ho
   svg.append(paint);
 }
 
+/// Between two decades that stand alone, so that their place can be read.
+constexpr std::array kWithinDecade{2.0, 4.0, 6.0, 8.0};
+
+std::string withinDecadeLabel(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", value);
+  return text.data();
+}
+
 void addAxes(std::string& svg, const Axis& x, const Axis& y) {
+  for (const double part : kWithinDecade) {
+    if (x.high - x.low == 1) {
+      const double at = x.at(part * std::pow(10.0, x.low));
+      addLine(svg, at, y.start, at, y.start + y.length, "#f2f2f2");
+      addText(svg, at, y.start + 18, withinDecadeLabel(part * std::pow(10.0, x.low)),
+              "text-anchor=\"middle\" font-size=\"12\"");
+    }
+    if (y.high - y.low == 1) {
+      const double at = y.at(part * std::pow(10.0, y.low));
+      addLine(svg, x.start, at, x.start + x.length, at, "#f2f2f2");
+      addText(svg, x.start - 8, at + 4, withinDecadeLabel(part * std::pow(10.0, y.low)),
+              "text-anchor=\"end\" font-size=\"12\"");
+    }
+  }
   for (int decade = x.low; decade <= x.high; ++decade) {
     const double at = x.start + x.length * (decade - x.low) / (x.high - x.low);
     addLine(svg, at, y.start, at, y.start + y.length, "#dddddd");
     if ((decade - x.low) % x.step() == 0) {
-      addText(svg, at, y.start + 18, decadeLabel(decade), "text-anchor=\"middle\" font-size=\"12\"");
+      addMarkup(svg, at, y.start + 18, decadeLabel(decade), "text-anchor=\"middle\" font-size=\"12\"");
     }
   }
   for (int decade = y.low; decade <= y.high; ++decade) {
@@ -132,7 +144,7 @@ void addAxes(std::string& svg, const Axis& x, const Axis& y) {
     const bool labelled = (decade - y.low) % y.step() == 0;
     addLine(svg, x.start, at, x.start + x.length, at, labelled ? "#dddddd" : "#f2f2f2");
     if (labelled) {
-      addText(svg, x.start - 8, at + 4, decadeLabel(decade), "text-anchor=\"end\" font-size=\"12\"");
+      addMarkup(svg, x.start - 8, at + 4, decadeLabel(decade), "text-anchor=\"end\" font-size=\"12\"");
     }
   }
   addLine(svg, x.start, y.start, x.start + x.length, y.start, "#444444");
@@ -152,14 +164,26 @@ void addSeries(std::string& svg, std::size_t index, const PlotSeries& series, co
   }
 }
 
+void addLegendEntry(std::string& svg, std::size_t index, const std::string& name, double x, double y) {
+  addLine(svg, x, y, x + 24, y, kColours[index % kColours.size()]);
+  addMarker(svg, index, x + 12, y, false);
+  addText(svg, x + 30, y + 4, name, "font-size=\"13\"");
+}
+
+/// Of all panels, above them.
 void addLegend(std::string& svg, const PlotPanel& panel) {
   double x = kLeft;
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
-    addLine(svg, x, 66, x + 24, 66, kColours[i % kColours.size()]);
-    addMarker(svg, i, x + 12, 66, false);
-    addText(svg, x + 30, 70, escaped(panel.series[i].name), "font-size=\"13\"");
+    addLegendEntry(svg, i, panel.series[i].name, x, 66);
     x += 48.0 + 7.0 * static_cast<double>(panel.series[i].name.size());
   }
+}
+
+bool sharesLegend(const PlotFigure& figure) {
+  const auto has_names_of_first = [&](const PlotPanel& panel) {
+    return std::ranges::equal(panel.series, figure.panels.front().series, {}, &PlotSeries::name, &PlotSeries::name);
+  };
+  return std::ranges::all_of(figure.panels, has_names_of_first);
 }
 
 }  // namespace
@@ -176,8 +200,9 @@ std::string renderSvg(const PlotFigure& figure) {
   svg.append(number(width)).append(" ").append(number(height));
   svg.append("\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" fill=\"#222222\">\n");
   svg.append("<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n");
-  addText(svg, kLeft, 32, escaped(figure.title), "font-size=\"18\" font-weight=\"bold\"");
-  if (!figure.panels.empty()) {
+  addText(svg, kLeft, 32, figure.title, "font-size=\"18\" font-weight=\"bold\"");
+  const bool shares_legend = sharesLegend(figure);
+  if (shares_legend && !figure.panels.empty()) {
     addLegend(svg, figure.panels.front());
   }
   std::vector<double> all_x;
@@ -202,20 +227,23 @@ std::string renderSvg(const PlotFigure& figure) {
     y.start = kTop + static_cast<double>(row) * (kPanelHeight + kGapY) + kPanelHeight;
     y.length = -kPanelHeight;
     addAxes(svg, x, y);
-    addText(svg, x.start, y.start + y.length - 8, escaped(panel.title), "font-size=\"13\" font-weight=\"bold\"");
-    addText(svg, x.start + x.length / 2, y.start + 38, escaped(figure.x_label),
-            "text-anchor=\"middle\" font-size=\"12\"");
+    addText(svg, x.start, y.start + y.length - 8, panel.title, "font-size=\"13\" font-weight=\"bold\"");
+    addText(svg, x.start + x.length / 2, y.start + 38, figure.x_label, "text-anchor=\"middle\" font-size=\"12\"");
     const std::string turn = std::string("rotate(-90 ").append(number(x.start - 48)).append(" ");
-    addText(svg, x.start - 48, y.start + y.length / 2, escaped(figure.y_label),
+    addText(svg, x.start - 48, y.start + y.length / 2, figure.y_label,
             std::string("text-anchor=\"middle\" font-size=\"12\" transform=\"")
                 .append(turn)
                 .append(number(y.start + y.length / 2))
                 .append(")\""));
     for (std::size_t series = 0; series < panel.series.size(); ++series) {
       addSeries(svg, series, panel.series[series], x, y);
+      if (!shares_legend) {
+        addLegendEntry(svg, series, panel.series[series].name, x.start + 14,
+                       y.start + y.length + 18 + 20 * static_cast<double>(series));
+      }
     }
   }
-  addText(svg, kLeft, height - 18, escaped(figure.caption), "font-size=\"12\" fill=\"#444444\"");
+  addText(svg, kLeft, height - 18, figure.caption, "font-size=\"12\" fill=\"#444444\"");
   return svg.append("</svg>\n");
 }
 

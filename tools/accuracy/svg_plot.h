@@ -11,7 +11,7 @@ struct PlotPoint {
 };
 
 struct PlotSeries {
-  std::string name;  ///< series of the same place in every panel share one legend entry
+  std::string name;  ///< where all panels have the same names, one legend stands for them
   std::vector<PlotPoint> points;
 };
 

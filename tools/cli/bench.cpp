@@ -3,12 +3,15 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <expected>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <random>
 #include <thread>
 #include <utility>
 
+#include "scenegraph/export/replace_file.h"
 #include "scenegraph/pick/scene_pick.h"
 #include "scenegraph/pipeline/offscreen_renderer.h"
 #include "tools/accuracy/accuracy.h"
@@ -26,6 +29,7 @@ struct BenchOptions {
   RecordingOptions recording;
   std::vector<std::string> only;
   std::vector<std::string> table;
+  std::string svg;
   bool is_scrub = false;
   bool is_json = false;
 };
@@ -231,6 +235,10 @@ Result<void> runBench(const BenchOptions& options) {
     std::fputs(table->c_str(), stdout);
     return {};
   }
+  if (!options.svg.empty() &&
+      (options.is_scrub || (!options.only.empty() && std::ranges::find(options.only, kViews) == options.only.end()))) {
+    return usageError("--svg draws the curves of several views: measure them, with --only views");
+  }
   const auto isChosen = [&](const char* name) {
     return !options.is_scrub && (options.only.empty() || std::ranges::find(options.only, name) != options.only.end());
   };
@@ -264,6 +272,19 @@ Result<void> runBench(const BenchOptions& options) {
       measure(results);
     }
   }
+  if (!options.svg.empty()) {
+    const auto written = scenegraph::replaceFile(
+        options.svg, [&](const std::filesystem::path& path) -> std::expected<void, std::string> {
+          std::ofstream file(path);
+          file << viewsPlot(results, machine.processor + ", " + std::to_string(machine.cores) + " cores, " +
+                                         machine.renderer + ", " + accuracy::dateOfToday())
+               << std::flush;
+          return file ? std::expected<void, std::string>{} : std::unexpected(scenegraph::lastSystemError());
+        });
+    if (!written) {
+      return std::unexpected(fileError(options.svg, written.error()));
+    }
+  }
   if (options.is_json) {
     std::fputs(jsonText(toJson(results, machine)).c_str(), stdout);
   } else {
@@ -286,6 +307,7 @@ Command addBenchCommand(CLI::App& app) {
       ->check(CLI::IsMember(names))
       ->allow_extra_args(false);
   app.add_flag("--scrub", options->is_scrub, "Drag the slider of FILE there and back, and nothing else");
+  app.add_option("--svg", options->svg, "Draw memory and time over the number of views into this file");
   app.add_flag("--json", options->is_json, "One JSON object instead of a table");
   app.add_option("--table", options->table,
                  "Measure nothing: print these files, written with --json, as a Markdown table");

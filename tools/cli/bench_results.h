@@ -81,6 +81,8 @@ void benchTicks(std::vector<BenchResult>& results);
 [[nodiscard]] Result<void> benchScrub(const RecordingOptions& options, std::vector<BenchResult>& results);
 /// Memory and time of 1, 2 and 4 views of one recording, each in a fixed frame of its own.
 [[nodiscard]] Result<void> benchViews(const RecordingOptions& options, std::vector<BenchResult>& results);
+/// What benchViews() appended as curves over the number of views, memory and time, each to that of one view; an SVG.
+[[nodiscard]] std::string viewsPlot(const std::vector<BenchResult>& results, const std::string& caption);
 /// The TransformBuffer beside its targets.
 void benchTransforms(std::vector<BenchResult>& results);
 

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nodes/registry.h"
@@ -9,6 +11,7 @@
 #include "scenegraph/osg_box.h"
 #include "scenegraph/pipeline/offscreen_renderer.h"
 #include "scenegraph/scene.h"
+#include "tools/accuracy/svg_plot.h"
 #include "tools/cli/bench_results.h"
 #include "tools/cli/recording_options.h"
 
@@ -19,6 +22,10 @@ constexpr int kWidth_px = 640;
 constexpr int kHeight_px = 360;
 constexpr int kTimes = 20;
 constexpr int kDraws = 5;
+
+constexpr std::array<std::size_t, 3> kCounts{1, 2, 4};
+
+std::string nameOf(std::size_t views) { return std::to_string(views) + (views == 1 ? " view, " : " views, "); }
 
 /// One view without a widget: what is a view's own.
 struct BenchView {
@@ -101,28 +108,51 @@ Result<ViewCosts> measure(const RecordingOptions& options, std::size_t count) {
 
 }  // namespace
 
+std::string viewsPlot(const std::vector<BenchResult>& results, const std::string& caption) {
+  accuracy::PlotFigure figure{.title = "Several views of one recording",
+                              .caption = caption,
+                              .x_label = "views",
+                              .y_label = "to that of one view",
+                              .panels = {{.title = "Memory", .series = {}}, {.title = "Time", .series = {}}}};
+  for (const BenchResult& one : results) {
+    const std::string head = nameOf(1);
+    if (!one.name.starts_with(head) || !(one.value > 0.0)) {
+      continue;
+    }
+    accuracy::PlotSeries series{.name = one.name.substr(head.size()), .points = {}};
+    for (const std::size_t count : kCounts) {
+      const auto of_count = std::ranges::find(results, nameOf(count) + series.name, &BenchResult::name);
+      if (of_count != results.end()) {
+        series.points.push_back({static_cast<double>(count), of_count->value / one.value});
+      }
+    }
+    figure.panels[one.unit == "MiB" ? 0 : 1].series.push_back(std::move(series));
+  }
+  return accuracy::renderSvg(figure);
+}
+
 Result<void> benchViews(const RecordingOptions& options, std::vector<BenchResult>& results) {
   if (const auto warm = measure(options, 1); !warm) {  // what is loaded once is loaded now
     return std::unexpected(warm.error());
   }
   ViewCosts one;
-  for (const std::size_t count : {1U, 2U, 4U}) {
+  for (const std::size_t count : kCounts) {
     const auto costs = measure(options, count);
     if (!costs) {
       return std::unexpected(costs.error());
     }
     one = count == 1 ? *costs : one;
-    const std::string name = std::to_string(count) + (count == 1 ? " view" : " views");
-    results.push_back({name + ", decoded and converted", costs->cache_mib, "MiB"});
-    results.push_back({name + ", heap of data and scenes", costs->scenes_mib, "MiB"});
-    results.push_back({name + ", heap of contexts and pictures, 640 x 360", costs->pictures_mib, "MiB"});
-    results.push_back({name + ", tick, first visit", costs->first_tick_ms, "ms"});
-    results.push_back({name + ", tick, cached", costs->tick_ms, "ms"});
-    results.push_back({name + ", a frame of each, 640 x 360", costs->frame_ms, "ms"});
+    const std::string name = nameOf(count);
+    results.push_back({name + "decoded and converted", costs->cache_mib, "MiB"});
+    results.push_back({name + "heap of data and scenes", costs->scenes_mib, "MiB"});
+    results.push_back({name + "heap of contexts and pictures, 640 x 360", costs->pictures_mib, "MiB"});
+    results.push_back({name + "tick, first visit", costs->first_tick_ms, "ms"});
+    results.push_back({name + "tick, cached", costs->tick_ms, "ms"});
+    results.push_back({name + "a frame of each, 640 x 360", costs->frame_ms, "ms"});
     if (count > 1) {
-      results.push_back({name + ", decoded bytes / those of one", costs->cache_mib / one.cache_mib, "", 1.01});
-      results.push_back({name + ", heap of data and scenes / that of one", costs->scenes_mib / one.scenes_mib, ""});
-      results.push_back({name + ", first visit / that of one", costs->first_tick_ms / one.first_tick_ms, ""});
+      results.push_back({name + "decoded bytes / those of one", costs->cache_mib / one.cache_mib, "", 1.01});
+      results.push_back({name + "heap of data and scenes / that of one", costs->scenes_mib / one.scenes_mib, ""});
+      results.push_back({name + "first visit / that of one", costs->first_tick_ms / one.first_tick_ms, ""});
     }
   }
   return {};

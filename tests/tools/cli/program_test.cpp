@@ -64,6 +64,7 @@ TEST(Program, RefusesWhatItDoesNotUnderstand) {
       {"accuracy", "luck"},
       {"accuracy", "tf", "a.mcap"},
       {"bench", "--scrub"},
+      {"bench", "--only", "poses", "--svg", "views.svg"},
       {"bench", "--only", "luck"},
       {"view", "--views", "0"},
   };

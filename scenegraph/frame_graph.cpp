@@ -1,7 +1,6 @@
 #include "scenegraph/frame_graph.h"
 
-#include "scenegraph/buffer_patches.h"
-
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>

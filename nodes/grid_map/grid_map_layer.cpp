@@ -218,6 +218,20 @@ Status GridMapLayer::remark() const {
             loadedText() + "no layer '" + choice_->missing + "'; there are " +
                 fieldNames(product()->cells().colors.has_value(), product()->cells().layers)};
   }
+  if (product()->cells().all.points == 0) {
+    return {StatusLevel::Info, "EmptyGrid", loadedText() + "the map has no cells"};
+  }
+  if (triangles_ == 0) {
+    return {StatusLevel::Info, "NothingDrawn",
+            loadedText() + "no four neighbours of its " + std::to_string(product()->cells().all.points) +
+                " cells have a height in '" + choice_->height + "'"};
+  }
+  const MapLayer* const color = choice_->mode == MapColorMode::Value ? product()->layer(choice_->color) : nullptr;
+  if (choice_->height.empty() && color != nullptr && color->limits.finite == 0) {
+    return {StatusLevel::Info, "NothingDrawn",
+            loadedText() + "none of its " + std::to_string(product()->cells().all.points) + " cells has a value of '" +
+                choice_->color + "'"};
+  }
   return {};
 }
 

@@ -205,6 +205,13 @@ Status PointCloudLayer::remark() const {
             loadedText() + std::to_string(dropped) + " of " + std::to_string(dropped + cloud.points) +
                 " points are not drawn: " + why};
   }
+  if (cloud.points == 0) {
+    const std::size_t beams = product()->supplement().left_out;
+    return beams == 0 ? Status{StatusLevel::Info, "NoPoints", loadedText() + "the message has no points"}
+                      : Status{StatusLevel::Info, "NoReturns",
+                               loadedText() + "none of its " + std::to_string(beams) +
+                                   " ranges is finite and within range_min and range_max"};
+  }
   return feedRemark();
 }
 

@@ -91,6 +91,19 @@ TEST_F(GridMapPicture, LiesFlatWithWholeCellsAndHolesWhereTheColourIsMissing) {
   expectColor(pixel(picture, 175, 100), "viridis", 1.0);
 }
 
+TEST_F(GridMapPicture, SaysWhyNothingIsSeen) {
+  const auto code = [&](const scenegraph::GridMap& map, const scenegraph::SettingTexts& settings = {}) {
+    open(datasetOf(map), "map");
+    const auto& layer = add("/map", settings);
+    EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+    return layer.status().code;
+  };
+  const auto nothing = [](auto, auto) { return std::numeric_limits<double>::quiet_NaN(); };
+  EXPECT_EQ(code(GridMapBuilder(8, 8).layer("elevation", nothing).build()), "NothingDrawn");
+  EXPECT_EQ(code(GridMapBuilder(8, 8).layer("elevation", nothing).build(), {{"flat", "true"}}), "NothingDrawn");
+  EXPECT_EQ(code(GridMapBuilder(0, 0).layer("elevation", nothing).build()), "EmptyGrid");
+}
+
 TEST_F(GridMapPicture, ShadesSlopesByTheirNormals) {
   GridMapBuilder builder(16, 16);
   builder.origin(translate(-8, -8, 0)).layer("elevation", [](auto column, auto) { return std::abs(column - 7.5); });

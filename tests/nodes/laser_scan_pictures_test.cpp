@@ -61,6 +61,30 @@ std::pair<int, int> columnsDrawn(const scenegraph::BytePicture& picture) {
 
 class ScanPicture : public ScenePictureTest {};
 
+TEST_F(ScanPicture, SaysWhenNoBeamReturned) {
+  LaserScan scan = wallScan(0);
+  scan.frame_id = "odom";
+  scan.range_max_m = 1.0;
+  const auto dataset = [](LaserScan shown) {
+    return DatasetBuilder()
+        .topic("/tf", ObjectType::FrameTransforms)
+        .transform(0, "odom", "laser")
+        .topic("/scan", ObjectType::LaserScan)
+        .at(1_s, std::move(shown))
+        .build();
+  };
+  open(dataset(scan), "odom");
+  const auto* layer = &add("/scan");
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+  EXPECT_EQ(layer->status().code, "NoReturns");
+  EXPECT_THAT(layer->status().message, HasSubstr("none of its 200 ranges"));
+  scan.ranges_m.clear();
+  open(dataset(scan), "odom");
+  layer = &add("/scan");
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+  EXPECT_EQ(layer->status().code, "NoPoints");
+}
+
 TEST_F(ScanPicture, DrawsAWallFlatSeenByATurningSensor) {
   open(turning(), "laser");
   auto& layer = add("/scan", {{"color_field", "flat"}, {"point_size", "1"}});

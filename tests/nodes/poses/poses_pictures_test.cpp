@@ -6,8 +6,7 @@
 
 #include "nodes/points/colormap.h"
 #include "tests/nodes/occupancy_grid/grid_builder.h"
-#include "tests/nodes/poses/poses_builder.h"
-#include "tests/nodes/scene_picture.h"
+#include "tests/nodes/poses/poses_picture.h"
 
 namespace stillframe::test {
 namespace {
@@ -19,62 +18,6 @@ using scenegraph::SettingTexts;
 using testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-std::shared_ptr<scenegraph::Dataset> datasetOf(PosesInFrame poses) {
-  return DatasetBuilder()
-      .topic("/tf", ObjectType::FrameTransforms)
-      .transform(0, "map", "base")
-      .topic("/poses", ObjectType::PosesInFrame)
-      .at(1_s, std::move(poses))
-      .build();
-}
-
-class PosesPicture : public ScenePictureTest {
- protected:
-  scenegraph::BytePicture drawPoses(PosesInFrame poses, const SettingTexts& settings = {},
-                                    const scenegraph::CameraView& view = fromAbove()) {
-    open(datasetOf(std::move(poses)), "map");
-    layer_ = &add("/poses", settings);
-    return draw(1_s, view);
-  }
-  /// Channel that is far above the two others; -1 when none is.
-  static int hue(const Bytes3& color) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (color[c] > 60 + color[(c + 1) % 3] && color[c] > 60 + color[(c + 2) % 3]) {
-        return static_cast<int>(c);
-      }
-    }
-    return -1;
-  }
-  static std::pair<int, int> extent(const scenegraph::BytePicture& picture) {
-    int left = picture.width;
-    int right = -1;
-    int top = picture.height;
-    int bottom = -1;
-    for (int y = 0; y < picture.height; ++y) {
-      for (int x = 0; x < picture.width; ++x) {
-        if (pixel(picture, x, y) != Bytes3{0, 0, 0}) {
-          left = std::min(left, x);
-          right = std::max(right, x);
-          top = std::min(top, y);
-          bottom = std::max(bottom, y);
-        }
-      }
-    }
-    return {right - left + 1, bottom - top + 1};
-  }
-  std::uint64_t count(const std::string& name) const {
-    for (const auto& [key, value] : layer_->counts()) {
-      if (key == name) {
-        return value;
-      }
-    }
-    ADD_FAILURE() << name;
-    return 0;
-  }
-
-  scenegraph::Layer* layer_ = nullptr;
-};
 
 TEST_F(PosesPicture, DrawsATriadAtEachPose) {
   const auto poses = posesOf(PosesKind::Array, {turn(std::numbers::pi / 2, -4, -4), translate(3, 3, 0)});
@@ -327,68 +270,6 @@ TEST_F(PosesPicture, IsTheSameOnTheFarSideOfTheEarth) {
     }
   }
   EXPECT_LE(differing, 4);
-}
-
-/// 20 poses, one a second from 1 s on: the sixth cannot be decoded, the last five are in another frame.
-std::shared_ptr<scenegraph::Dataset> drive() {
-  DatasetBuilder builder;
-  builder.topic("/tf", ObjectType::FrameTransforms).transform(0, "map", "base").transform(0, "map", "other");
-  builder.topic("/odom", ObjectType::PosesInFrame);
-  for (int i = 0; i < 20; ++i) {
-    if (i == 5) {
-      builder.failsAt((1 + i) * 1_s, "BadChunk");
-    } else {
-      builder.at((1 + i) * 1_s, posesOf(PosesKind::Single, {translate(-9 + i, i % 3, 0)}, i < 15 ? "map" : "/other"));
-    }
-  }
-  return builder.build();
-}
-
-TEST_F(PosesPicture, TrailsThePosesBeforeByNumberOrTime) {
-  open(drive(), "map");
-  layer_ = &add("/odom", {{"trail", "poses"}, {"trail_poses", "4"}, {"shape", "none"}});
-  draw(4_s + 1, fromAbove());
-  EXPECT_EQ(count("trail"), 4U);
-  EXPECT_EQ(count("segments"), 3U);
-  EXPECT_EQ(layer_->status(), scenegraph::Status{});
-  draw(8_s, fromAbove());
-  EXPECT_EQ(count("trail"), 3U);
-  EXPECT_EQ(layer_->status().code, "TrailUndecodable");
-  ASSERT_TRUE(layer_->applySettings({{"trail", "seconds"}, {"trail_seconds", "1.5"}}));
-  draw(4_s + 500'000'000, fromAbove());
-  EXPECT_EQ(count("trail"), 2U) << "of the pose shown, not of the tick";
-  ASSERT_TRUE(layer_->applySettings({{"trail_seconds", "1e9"}}));
-  draw(10_s, fromAbove());
-  EXPECT_EQ(count("trail"), 9U);
-  ASSERT_TRUE(layer_->applySettings({{"trail", "all"}, {"trail_shapes", "true"}, {"shape", "arrows"}}));
-  draw(20_s, fromAbove());
-  EXPECT_EQ(count("trail"), 5U);
-  EXPECT_EQ(count("shapes"), 5U);
-  EXPECT_EQ(layer_->status().code, "TrailInOtherFrames");
-  EXPECT_THAT(layer_->status().message, HasSubstr("14 poses"));
-}
-
-TEST_F(PosesPicture, TrailsDoNotDependOnThePath) {
-  const SettingTexts settings{
-      {"trail", "poses"}, {"trail_poses", "6"}, {"trail_shapes", "true"}, {"color_field", "time"}};
-  const auto dataset = drive();
-  open(dataset, "map");
-  layer_ = &add("/odom", settings);
-  Random random(11);
-  for (int i = 0; i < 12; ++i) {
-    const auto time = static_cast<std::int64_t>(random.number(0, 21) * 1e9);
-    const auto walked = draw(time, fromAbove());
-    const auto counts = layer_->counts();
-    const auto status = layer_->status();
-    auto walked_scene = std::move(scene_);
-    open(drive(), "map");
-    const auto& fresh = add("/odom", settings);
-    EXPECT_EQ(draw(time, fromAbove()).rgb, walked.rgb) << time;
-    EXPECT_EQ(fresh.counts(), counts) << time;
-    EXPECT_EQ(fresh.status(), status) << time;
-    scene_ = std::move(walked_scene);
-    dataset_ = dataset;
-  }
 }
 
 TEST_F(PosesPicture, NamesTheChildFrameOfAnOdometryWhenAsked) {

@@ -71,7 +71,7 @@ TEST(FoxgloveProtobuf, AbsentPosesAreIdentity) {
   const auto cloud = decoded(writer.schema("foxglove.PointCloud"), "protobuf", bytes).get<scenegraph::PointCloud>();
   ASSERT_NE(cloud, nullptr);
   EXPECT_EQ(cloud->pose.rotation.w, 1.0);
-  EXPECT_EQ(cloud->width, 0u) << "a stride of 0 holds no points";
+  EXPECT_EQ(cloud->width, 1u) << "data in points of no bytes: for the layout to refuse";
 }
 
 TEST(FoxgloveProtobuf, PointsInFramesArePosesWithoutARotation) {

@@ -21,7 +21,8 @@ struct FoxgloveCloudRow {
 
 RowDecoder<FoxgloveCloudRow>::Result convertCloud(FoxgloveCloudRow& row, const MessageView& payloads) {
   PointCloud& cloud = row.cloud;
-  cloud.width = countOf(row.data.size(), cloud.point_step);
+  // Points of no bytes at all: the cloud's layout is refused for that, but only where there is a point.
+  cloud.width = cloud.point_step == 0 && !row.data.empty() ? 1 : countOf(row.data.size(), cloud.point_step);
   cloud.row_step = static_cast<std::uint32_t>(std::min<std::uint64_t>(std::uint64_t{cloud.width} * cloud.point_step,
                                                                       std::numeric_limits<std::uint32_t>::max()));
   cloud.is_dense = false;  // not told

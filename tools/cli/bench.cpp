@@ -173,7 +173,7 @@ void print(const std::vector<BenchResult>& results, const Machine& machine) {
               machine.memcpy_mb_per_s, machine.renderer.empty() ? "none" : machine.renderer.c_str(),
               machine.version.c_str());
   for (const BenchResult& result : results) {
-    std::printf("  %-60s %12.4g %-12s", result.name.c_str(), result.value, result.unit.c_str());
+    std::printf("  %-60s %12s %-12s", result.name.c_str(), valueText(result.value).c_str(), result.unit.c_str());
     if (result.at_most) {
       std::printf(" %s (at most %g)", result.value <= *result.at_most ? "ok" : "MISSED", *result.at_most);
     } else if (result.at_least) {

@@ -52,6 +52,9 @@ double bestSecondsOf(int calls, const Function& function) {
   return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1) + 0.5)];
 }
 
+/// Four digits of a value, all of those before the point: 10540, 94.11, 8e-05.
+[[nodiscard]] std::string valueText(double value);
+
 // The cases; each appends what it measured.
 
 /// Memory copy, and cloud conversion beside it.

@@ -27,12 +27,6 @@ Result<BenchRun> readRun(const std::string& file) {
   return BenchRun{std::filesystem::path(file).stem().string(), std::move(json)};
 }
 
-std::string textOf(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), value != 0.0 && (value < 0.1 || value >= 1e5) ? "%.3g" : "%.4g", value);
-  return text.data();
-}
-
 /// The row of that name; nullptr when the run has none.
 const Json* findRow(const BenchRun& run, const std::string& name) {
   for (const Json& row : run.json["results"]) {
@@ -44,8 +38,8 @@ const Json* findRow(const BenchRun& run, const std::string& name) {
 }
 
 std::string targetOf(const Json& row) {
-  return row.contains("at_most")    ? "at most " + textOf(row.value("at_most", 0.0))
-         : row.contains("at_least") ? "at least " + textOf(row.value("at_least", 0.0))
+  return row.contains("at_most")    ? "at most " + valueText(row.value("at_most", 0.0))
+         : row.contains("at_least") ? "at least " + valueText(row.value("at_least", 0.0))
                                     : "";
 }
 
@@ -64,6 +58,12 @@ std::vector<std::string> namesOf(const std::vector<BenchRun>& runs) {
 
 }  // namespace
 
+std::string valueText(double value) {
+  std::array<char, 320> text{};
+  std::snprintf(text.data(), text.size(), value >= 1000.0 ? "%.0f" : value < 0.1 ? "%.3g" : "%.4g", value);
+  return text.data();
+}
+
 Result<std::string> benchTable(const std::vector<std::string>& files) {
   std::vector<BenchRun> runs;
   for (const std::string& file : files) {
@@ -79,7 +79,7 @@ Result<std::string> benchTable(const std::vector<std::string>& files) {
   for (const BenchRun& run : runs) {
     text += "- " + run.title + ": " + run.json.value("processor", "?") + ", " +
             std::to_string(run.json.value("cores", 0)) + " cores, memcpy " +
-            textOf(run.json.value("memcpy_mb_per_s", 0.0)) + " MB/s; " + run.json.value("renderer", "?") +
+            valueText(run.json.value("memcpy_mb_per_s", 0.0)) + " MB/s; " + run.json.value("renderer", "?") +
             "; stillframe " + run.json.value("version", "?") + "; " + run.json.value("date", "?") + "\n";
     head += " " + run.title + " |";
     rule += "--:|";
@@ -91,7 +91,7 @@ Result<std::string> benchTable(const std::vector<std::string>& files) {
     std::string cells;
     for (const BenchRun& run : runs) {
       const Json* const row = findRow(run, name);
-      cells += " " + (row == nullptr ? std::string() : textOf(row->value("value", 0.0))) + " |";
+      cells += " " + (row == nullptr ? std::string() : valueText(row->value("value", 0.0))) + " |";
       unit = row == nullptr ? unit : row->value("unit", "");
       target = row == nullptr ? target : targetOf(*row);
     }

@@ -252,7 +252,7 @@ TEST(Bench, PrintsWhatEarlierRunsMeasuredSideBySide) {
   };
   const std::string before = folder.makeFile(
       "before.json",
-      run_of(R"({"name": "tick", "value": 16.25, "unit": "ms"}, {"name": "gone", "value": 3, "unit": ""})"));
+      run_of(R"({"name": "tick", "value": 16.25, "unit": "ms"}, {"name": "gone", "value": 10543.6, "unit": ""})"));
   const std::string after =
       folder.makeFile("after.json", run_of(R"({"name": "tick", "value": 0.0123, "unit": "ms", "at_most": 0.1})"));
   const Outcome outcome = run(folder.path(), {"bench", "--table", before, after});
@@ -262,7 +262,7 @@ TEST(Bench, PrintsWhatEarlierRunsMeasuredSideBySide) {
             "- after: P, 2 cores, memcpy 9000 MB/s; R; stillframe 1; D\n\n"
             "| what | before | after | target |\n|---|--:|--:|---|\n"
             "| tick (ms) | 16.25 | 0.0123 | at most 0.1 |\n"
-            "| gone | 3 |  |  |\n");
+            "| gone | 10544 |  |  |\n");
   const Outcome refused = run(folder.path(), {"bench", "--table", folder.makeFile("no.json", "[]")});
   EXPECT_EQ(refused.code, 1);
   EXPECT_NE(refused.err.find("no.json"), std::string::npos) << refused.err;

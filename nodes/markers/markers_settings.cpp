@@ -125,7 +125,10 @@ std::expected<void, SettingError> applyMarkersSettings(const SettingTexts& texts
       changed.hidden_namespaces.insert(*name);
     }
   }
-  if (const auto applied = table().apply(others, changed); !applied) {
+  if (auto applied = table().apply(others, changed); !applied) {
+    if (applied.error().code == "UnknownSetting") {
+      applied.error().message += ", ns_NAME for a namespace (_2f for '/', and so for all but letters and digits)";
+    }
     return applied;
   }
   settings = std::move(changed);

@@ -312,6 +312,12 @@ Status RobotModelLayer::judge() const {
             sample + std::to_string(nodes_.size() - tally_.placed) + " of " + std::to_string(nodes_.size()) +
                 " links have no place and are not drawn: " + unplacedText(*tally_.first_unplaced)};
   }
+  for (const auto& [name, link] : settings_.links) {
+    if (std::ranges::find(scene_->robot().links, name, &RobotLink::name) == scene_->robot().links.end()) {
+      return {StatusLevel::Info, "UnknownLink",
+              sample + "the settings name the link '" + name + "', which the robot does not have"};
+    }
+  }
   if (!scene_->faults().empty()) {
     return {StatusLevel::Warn, scene_->faults().front().status.code, sample + faultText()};
   }

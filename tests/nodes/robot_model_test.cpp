@@ -127,6 +127,11 @@ TEST_F(RobotModelPicture, CollisionShapesAndLinksAreSwitchedAlone) {
   EXPECT_LT(pixel(picture, 130, 100)[1], 240);
   EXPECT_GT(pixel(picture, 130, 100)[1], 60);
   EXPECT_EQ(layer.settings().at("link.upper.opacity"), "0.5");
+  ASSERT_TRUE(layer.applySettings({{"link.uper.visible", "false"}}));
+  draw(1_s, fromAbove());
+  EXPECT_EQ(layer.status().code, "UnknownLink");
+  EXPECT_THAT(layer.status().message, HasSubstr("'uper'"));
+  ASSERT_TRUE(layer.applySettings({{"link.uper.visible", "true"}}));
   ASSERT_TRUE(layer.applySettings({{"link.upper.opacity", "1"}, {"link.base.visible", "true"}}));
   EXPECT_EQ(pixel(draw(1_s, fromAbove()), 100, 100), (Bytes3{255, 0, 0}));
 }

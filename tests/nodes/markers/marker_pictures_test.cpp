@@ -258,6 +258,7 @@ TEST_F(MarkerPicture, SaysWhyThereIsNothing) {
   auto& layer = add("/markers");
   EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 400);
   EXPECT_EQ(layer.status(), scenegraph::Status{});
+  EXPECT_THAT(layer.applySettings({{"namespaces", "none"}}).error().message, HasSubstr("ns_NAME for a namespace"));
   ASSERT_TRUE(layer.applySettings({{nodes::namespaceKey("brief"), "false"}}));
   EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
   EXPECT_EQ(layer.status().code, "NamespacesHidden");

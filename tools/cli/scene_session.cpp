@@ -88,10 +88,22 @@ Result<void> SceneSession::addLayers() {
   for (const LayerArgument& named : options_.layers) {
     const auto slot = scene_->addLayer(named.id);
     if (!slot) {
-      return usageError(options_.recording.file + ": " + slot.error().message);
+      return usageError(options_.recording.file + ": " + layerRefusal(named.id, slot.error()));
     }
   }
   return {};
+}
+
+/// Why a layer cannot be had. What follows a topic that there is was meant as its settings.
+std::string SceneSession::layerRefusal(const std::string& id, const scenegraph::Status& status) const {
+  const auto names = scene_->drawableTopics();
+  for (std::size_t colon = id.find(':'); colon != std::string::npos; colon = id.find(':', colon + 1)) {
+    if (std::ranges::find(names, id.substr(0, colon)) != names.end()) {
+      return "layer '" + id.substr(0, colon) + "': '" + id.substr(colon + 1) +
+             "' is no list of settings, key=value,...";
+    }
+  }
+  return status.message;
 }
 
 /// After the first update: which choices a colour field has is known once there is data.

@@ -41,6 +41,7 @@ class SceneSession {
   void takeLayout();
   Result<void> chooseTime();
   Result<void> addLayers();
+  [[nodiscard]] std::string layerRefusal(const std::string& id, const scenegraph::Status& status) const;
   Result<void> chooseFrame();
   Result<void> applyLayers();
   void notePicks();

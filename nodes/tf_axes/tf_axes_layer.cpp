@@ -169,10 +169,13 @@ void TfAxesLayer::update(const scenegraph::Tick& tick) {
   }
   applied_ = std::move(inputs);
   for (Shown& shown : shown_) {
-    if (shown.line.valid()) {
+    const auto stamp = buffer.stampInForce(shown.id, tick.time);
+    if (shown.line.valid() && (!shown.is_posed || shown.stamp != stamp)) {
+      shown.is_posed = true;
+      shown.stamp = stamp;
       poseLine(shown, tick.time);
     }
-    judgeAge(shown, tick.time);
+    judgeAge(shown, stamp, tick.time);
   }
   judge();
 }
@@ -225,6 +228,7 @@ void TfAxesLayer::rebuild() {
   for (Shown& shown : shown_) {
     const auto edge = buffer.edge(shown.id);
     shown.is_static = !edge || edge->is_static;
+    shown.is_posed = false;
   }
 }
 
@@ -248,10 +252,11 @@ void TfAxesLayer::hang(Shown& shown) {
 }
 
 void TfAxesLayer::poseLine(Shown& shown, tf::TimePoint time) {
-  const auto child_from_parent = context_->frames.buffer().tryLookupTransform(shown.id, shown.parent, time);
-  const bool has_length = child_from_parent && child_from_parent->translation != glm::dvec3(0.0);
+  // From above, which is the sample as it lies there; the other way would be closed across the tree.
+  const auto parent_from_child = context_->frames.buffer().tryLookupTransform(shown.parent, shown.id, time);
+  const bool has_length = parent_from_child && parent_from_child->translation != glm::dvec3(0.0);
   if (has_length) {
-    const osg::Matrixd matrix = lineMatrix(toOsg(child_from_parent->translation));
+    const osg::Matrixd matrix = lineMatrix(toOsg(tf::inverse(*parent_from_child).translation));
     if (matrix != shown.line->getMatrix()) {
       shown.line->setMatrix(matrix);
     }
@@ -259,10 +264,9 @@ void TfAxesLayer::poseLine(Shown& shown, tf::TimePoint time) {
   shown.line->setNodeMask(has_length ? ~0U : 0U);
 }
 
-void TfAxesLayer::judgeAge(Shown& shown, tf::TimePoint time) {
+void TfAxesLayer::judgeAge(Shown& shown, std::optional<tf::TimePoint> stamp, tf::TimePoint time) {
   const bool may_age = !shown.is_static && settings_.stale_after_s > 0.0;
-  const auto stamp = may_age ? context_->frames.buffer().stampInForce(shown.id, time) : std::nullopt;
-  const double age_s = stamp ? tf::secondsBetween(*stamp, time) : 0.0;
+  const double age_s = may_age && stamp ? tf::secondsBetween(*stamp, time) : 0.0;
   const bool is_stale = may_age && age_s > settings_.stale_after_s;
   if (is_stale != shown.is_stale && triad_.valid()) {
     shown.group->replaceChild(is_stale ? triad_.get() : dim_triad_.get(), is_stale ? dim_triad_.get() : triad_.get());
@@ -289,7 +293,7 @@ void TfAxesLayer::setView(const scenegraph::CameraView& view, const scenegraph::
   constexpr std::size_t kMostLines = 6;
   std::vector<LabelWish> wishes(shown_.size());
   for (std::size_t i = 0; i < shown_.size(); ++i) {
-    const auto fixed_from_frame = context_->frames.fixedFromFrame(shown_[i].name);
+    const auto fixed_from_frame = context_->frames.fixedFromFrame(shown_[i].name, shown_[i].id);
     const auto at = fixed_from_frame ? scenegraph::toScreen(view, size, fixed_from_frame->translation) : std::nullopt;
     if (at && at->position_px.x >= 0.0 && at->position_px.x <= size.width_px && at->position_px.y >= 0.0 &&
         at->position_px.y <= size.height_px) {
@@ -327,7 +331,7 @@ void TfAxesLayer::judge() {
   tf::LookupFailure first_failure;
   const double arm = settings_.axis_length_m;
   for (const Shown& shown : shown_) {
-    const auto fixed_from_frame = context_->frames.fixedFromFrame(shown.name);
+    const auto fixed_from_frame = context_->frames.fixedFromFrame(shown.name, shown.id);
     if (fixed_from_frame) {
       ++resolved_;
       const osg::Vec3d at = toOsg(fixed_from_frame->translation);

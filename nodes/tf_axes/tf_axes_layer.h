@@ -21,8 +21,9 @@ namespace stillframe::nodes {
 ///
 /// All triads are one geometry and all lines another; a tick writes matrices only, of what moved. Each line lies in its
 /// child's frame and is scaled in double, so that frames on the far side of the earth cost no precision. A frame whose
-/// own sample is older than `stale_after` is dimmed, and its name tells the age. A tick costs two lookups per shown
-/// frame with a parent; nothing when time, fixed frame, transforms and settings are as before. GUI thread.
+/// own sample is older than `stale_after` is dimmed, and its name tells the age. A tick costs the search for the sample
+/// in force of each shown frame, and a line where that is another than before; nothing when time, fixed frame,
+/// transforms and settings are as before. GUI thread.
 class TfAxesLayer final : public scenegraph::Layer {
  public:
   struct Settings {
@@ -79,6 +80,8 @@ class TfAxesLayer final : public scenegraph::Layer {
     osg::ref_ptr<osg::Group> group;
     osg::ref_ptr<osg::MatrixTransform> line;  // null for a root
     osg::ref_ptr<osg::Node> label;            // null without names
+    std::optional<tf::TimePoint> stamp;       // of the sample that the line was laid by
+    bool is_posed = false;                    // since the transforms changed
     bool is_static = true;
     bool is_stale = false;
     std::string text;  // the name, with the age of a stale frame
@@ -98,7 +101,7 @@ class TfAxesLayer final : public scenegraph::Layer {
   void hang(Shown& shown);
   void clear();
   void poseLine(Shown& shown, tf::TimePoint time);
-  void judgeAge(Shown& shown, tf::TimePoint time);
+  void judgeAge(Shown& shown, std::optional<tf::TimePoint> stamp, tf::TimePoint time);
   void writeLabel(const Shown& shown, const std::string& text) const;
   void judge();
 

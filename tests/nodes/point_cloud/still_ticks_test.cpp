@@ -67,5 +67,50 @@ TEST_F(StillTicks, WriteOneUniformWhereAnAxisGivesTheColour) {
   EXPECT_EQ(GraphWrites(scene_->root()).uniforms, before.uniforms + 1) << "the height of the one that moved";
 }
 
+TEST_F(StillTicks, ShowingWhatWasMaskedOffIsNoWrite) {
+  // The first frame is at the origin of its parent at 0 s and leaves it: the line between them comes and goes.
+  openClouds({{"color_field", "intensity"}});
+  add("tf");
+  scene_->update(tf::TimePoint{1_s});
+  scene_->update(tf::TimePoint{0});
+  const GraphWrites before(scene_->root());
+  scene_->update(tf::TimePoint{2_s});
+  const GraphWrites after(scene_->root());
+  EXPECT_EQ(scene_->frames().lastTick().matrices_written, 1U);
+  EXPECT_EQ(after.uniforms, before.uniforms);
+  EXPECT_EQ(after.arrays, before.arrays);
+  EXPECT_EQ(after.addresses, before.addresses);
+}
+
+TEST_F(StillTicks, AWriteBeneathAMaskedNodeCounts) {
+  openClouds({{"color_field", "intensity"}});
+  osg::ref_ptr<osg::Group> masked = new osg::Group;
+  masked->getOrCreateStateSet()->addUniform(new osg::Uniform("u_test", 1.0F));
+  masked->setNodeMask(0U);
+  scene_->root().addChild(masked);
+  scene_->root().addChild(masked);
+  const GraphWrites before(scene_->root());
+  masked->getStateSet()->getUniform("u_test")->set(2.0F);
+  EXPECT_EQ(GraphWrites(scene_->root()).uniforms, before.uniforms + 1) << "once, wherever it hangs";
+}
+
+TEST_F(StillTicks, LinesLeadToTheParentAtEveryTime) {
+  openClouds({{"color_field", "intensity"}});
+  add("tf");
+  for (const int second : {0, 3, 1, 1, 4}) {
+    scene_->update(tf::TimePoint{second * 1_s});
+    const osg::MatrixTransform* const frame = scene_->frames().node("frame0");
+    const osg::Group* const tf =
+        frame->getChild(0)->getName() == "tf" ? frame->getChild(0)->asGroup() : frame->getChild(1)->asGroup();
+    const auto* const line = dynamic_cast<const osg::MatrixTransform*>(tf->getChild(1));
+    ASSERT_NE(line, nullptr);
+    const osg::Vec3d parent_in_frame = osg::Vec3d(1, 0, 0) * line->getMatrix();
+    EXPECT_EQ(line->getNodeMask() != 0U, second > 0);
+    if (second > 0) {
+      EXPECT_LT((parent_in_frame - osg::Vec3d(0, -0.1 * second, -0.2 * second)).length(), 1e-12) << second;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace stillframe::test

@@ -10,6 +10,7 @@
 #include <osg/Notify>
 
 #include "generated/stillframe_render/shaders.h"
+#include "scenegraph/raster/points_in_view.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -133,13 +134,14 @@ std::size_t ComputePoints::upload(const osg::Array* array) const {
   return array->getTotalDataSize();
 }
 
-std::vector<std::uint32_t> ComputePoints::cut(const PointCollection& points) {
-  std::vector<std::uint32_t> groups;
+std::vector<ComputePoints::Group> ComputePoints::cut(const PointCollection& points, int width_px, int height_px) {
+  std::vector<Group> groups;
   slices_.clear();
   std::uint32_t first_number = 0;
   for (std::size_t i = 0; i < points.batches.size(); ++i) {
     const PointBatch& batch = points.batches[i];
     const BoxCull cull(batch.clip_from_points);
+    const BoxProjector projector(batch.clip_from_points, width_px, height_px);
     for (std::size_t first = 0; first < batch.count(); first += largest_slice_) {
       Slice slice{.batch = i,
                   .first_number = first_number,
@@ -148,8 +150,10 @@ std::vector<std::uint32_t> ComputePoints::cut(const PointCollection& points) {
                   .first_in_view = static_cast<std::uint32_t>(groups.size())};
       const std::uint32_t end = slice.first_group + (slice.points + kPassesOfSample - 1) / kPassesOfSample;
       for (std::uint32_t group = slice.first_group; group < end; ++group) {
-        if (group >= batch.boxes.size() || cull.mayBeSeen(batch.boxes[group])) {
-          groups.push_back(group);
+        if (group >= batch.boxes.size()) {
+          groups.push_back({group, kPassesOfSample});
+        } else if (cull.mayBeSeen(batch.boxes[group])) {
+          groups.push_back({group, pointsWorthDrawing(batch, projector.project(batch.boxes[group]))});
         }
       }
       slice.groups_in_view = static_cast<std::uint32_t>(groups.size()) - slice.first_in_view;
@@ -182,9 +186,9 @@ std::size_t ComputePoints::fit(int width_px, int height_px) {
 
 std::size_t ComputePoints::begin(const PointCollection& points, int width_px, int height_px) {
   points_ = points;
-  const std::vector<std::uint32_t> groups = cut(points);
-  std::size_t uploaded = groups.size() * sizeof(std::uint32_t);
-  const std::uint32_t none = 0;
+  const std::vector<Group> groups = cut(points, width_px, height_px);
+  std::size_t uploaded = groups.size() * sizeof(Group);
+  const Group none;
   glNamedBufferData(buffers_[kGroupsBuffer], static_cast<GLsizeiptr>(std::max<std::size_t>(uploaded, sizeof none)),
                     groups.empty() ? &none : groups.data(), GL_DYNAMIC_DRAW);
   for (const PointArrays& arrays : points.arrays) {

@@ -15,7 +15,7 @@ namespace stillframe::scenegraph {
 /// As PointRaster does it, with 32-bit atomics, which every OpenGL 4.5 has: one run over the points finds the nearest
 /// depth of each pixel, a second one the first point that has it; so the picture is the same whatever the order in
 /// which threads come. It reads the buffers that GL_POINTS would be drawn from, and adds 8 bytes a pixel, two textures
-/// of 12, and 4 bytes for each group of points in view. One of the files with OpenGL calls of its own. Method: Schuetz,
+/// of 12, and 8 bytes for each group of points in view. One of the files with OpenGL calls of its own. Method: Schuetz,
 /// Kerbl, Wimmer, "Rendering Point Clouds with Compute Shaders and Vertex Order Optimization", 2021; "Software
 /// Rasterization of 2 Billion Points in Real Time", 2022. Thread of the context, which is current in every call, the
 /// destructor's too.
@@ -46,7 +46,12 @@ class ComputePoints final : public PointDrawer {
     std::uint32_t first_in_view = 0;  // in the buffer of groups
     std::uint32_t groups_in_view = 0;
   };
-  std::vector<std::uint32_t> cut(const PointCollection& points);
+  /// A group in view, as the shader has it.
+  struct Group {
+    std::uint32_t number = 0;  // in its batch
+    std::uint32_t most = 0;    // of the passes of the first lap
+  };
+  std::vector<Group> cut(const PointCollection& points, int width_px, int height_px);
   void bindSlice(unsigned binding, const osg::Array* array, const Slice& slice, std::size_t bytes_a_point) const;
   std::size_t upload(const osg::Array* array) const;
   std::size_t fit(int width_px, int height_px);

@@ -36,9 +36,9 @@ PointStage::PointStage(std::unique_ptr<PointDrawer> drawer)
 }
 
 std::size_t PointStage::startAnew(const PointCollection& points, int width_px, int height_px) {
-  in_view_ = 0;
+  in_view_ = {};
   for (const PointBatch& batch : points.batches) {
-    in_view_ += countInView(batch);
+    in_view_.add(batch, width_px, height_px);
   }
   passes_ = 0;
   width_px_ = width_px;
@@ -46,16 +46,22 @@ std::size_t PointStage::startAnew(const PointCollection& points, int width_px, i
   return drawer_->begin(points, width_px, height_px);
 }
 
-std::uint32_t PointStage::affordablePasses(const PointLimits& limits) const {
-  const double per_pass = static_cast<double>(in_view_) / kPassesOfSample;
+std::uint32_t PointStage::affordableEnd(const PointLimits& limits) const {
   // Where the rest of a frame takes all of its time, as on a busy machine, the picture still comes to an end.
   constexpr double kLeast = 0.25;
-  constexpr std::uint32_t kMostFrames = 64;
+  constexpr double kMostFrames = 64.0;
   const double budget_ms = std::max(limits.budget_ms - resolve_ms_, kLeast * limits.budget_ms);
-  const double passes = std::max(budget_ms, 0.0) * points_per_ms_ / per_pass;
-  const std::uint32_t least = passes_ == 0 ? 1 : kPassesOfSample / kMostFrames;
-  const std::uint32_t left = limits.passes - passes_;
-  return passes < left ? std::clamp(static_cast<std::uint32_t>(passes), std::min(least, left), left) : left;
+  const double least = passes_ == 0 ? 0.0 : static_cast<double>(in_view_.count()) / kMostFrames;
+  const double points = std::max(budget_ms * points_per_ms_, least);
+  return std::min(std::max(in_view_.passesFor(points, passes_, limits.passes), passes_ + 1), limits.passes);
+}
+
+void PointStage::noteRate(double points_per_ms, double points, bool is_first) {
+  constexpr double kTelling = 2000.0;  // points: fewer tell of the call, not of a point
+  // Later runs leave out groups that are hidden by then, which an empty picture hides none of.
+  if (points >= kTelling && (is_first || points_per_ms < points_per_ms_)) {
+    points_per_ms_ += kNewest * (points_per_ms - points_per_ms_);
+  }
 }
 
 PointProgress PointStage::draw(PointCollection points, int width_px, int height_px, const PointLimits& limits) {
@@ -72,23 +78,23 @@ PointProgress PointStage::draw(PointCollection points, int width_px, int height_
     progress.upload_bytes = startAnew(points, width_px, height_px);
   }
   drawn_ = std::move(points);
-  progress.in_view = in_view_;
+  progress.in_view = in_view_.count();
   const bool is_drawing = passes_ < limits.passes;
   if (is_drawing) {
     PointLimits left = limits;
     left.budget_ms -= millisecondsSince(start);  // for making room for the picture, some pixels a nanosecond
-    const std::uint32_t more = affordablePasses(left);
+    const std::uint32_t end = affordableEnd(left);
+    const bool is_first = passes_ == 0;
     const auto before = Clock::now();
-    drawer_->draw({passes_, passes_ + more});
-    passes_ += more;
+    drawer_->draw({passes_, end});
+    const double took_ms = millisecondsSince(before);
     progress.raster_ms = millisecondsSince(start);
-    const double drawn = static_cast<double>(in_view_) * more / kPassesOfSample;
-    constexpr double kTelling = 2000.0;  // points: fewer tell of the call, not of a point
-    if (drawn >= kTelling) {
-      points_per_ms_ += kNewest * (drawn / std::max(millisecondsSince(before), 1e-3) - points_per_ms_);
-    }
+    const double drawn = in_view_.drawnBefore(end) - in_view_.drawnBefore(passes_);
+    passes_ = end;
+    noteRate(drawn / std::max(took_ms, 1e-3), drawn, is_first);
   }
-  progress.share = static_cast<double>(passes_) / kPassesOfSample;
+  const bool is_whole = passes_ == kPassesOfBothLaps || in_view_.count() == 0;
+  progress.share = is_whole ? 1.0 : in_view_.drawnBefore(passes_) / static_cast<double>(in_view_.count());
   if (is_drawing || !is_same_colors) {
     const auto drawn = Clock::now();
     progress.upload_bytes += drawer_->resolve(PointShading(drawn_.batches, drawn_.colors));
@@ -101,8 +107,8 @@ PointProgress PointStage::draw(PointCollection points, int width_px, int height_
 std::span<const std::uint64_t> PointStage::keys(PointCollection points, int width_px, int height_px) {
   if (points.batches != drawn_.batches || width_px_ != width_px || height_px_ != height_px) {
     (void)startAnew(points, width_px, height_px);
-    drawer_->draw({0, kPassesOfSample});
-    passes_ = kPassesOfSample;
+    drawer_->draw({});
+    passes_ = kPassesOfBothLaps;
     drawn_ = std::move(points);
     drawn_.colors.clear();  // not in the textures yet: the next draw() sees others and resolves
   }

@@ -13,6 +13,7 @@
 #include "scenegraph/pipeline/point_collection.h"
 #include "scenegraph/pipeline/point_drawer.h"
 #include "scenegraph/raster/point_raster.h"
+#include "scenegraph/raster/points_in_view.h"
 
 namespace stillframe::scenegraph {
 
@@ -21,7 +22,7 @@ struct PointLimits {
   /// Time for the points of one frame, to the picture of them; what it does not reach for is drawn by the next frames.
   double budget_ms = std::numeric_limits<double>::infinity();
   /// Passes of sample_order.h that are drawn at most, however many frames there are.
-  std::uint32_t passes = kPassesOfSample;
+  std::uint32_t passes = kPassesOfBothLaps;
 };
 
 /// How far the picture of a PointStage has come.
@@ -29,7 +30,8 @@ struct PointProgress {
   std::string by;           ///< the drawer's name
   std::size_t points = 0;   ///< of the scene, seen or not
   std::size_t in_view = 0;  ///< of them, those of groups that are not out of the picture as a whole
-  double share = 1.0;       ///< of them that have been drawn; below 1 the picture is a fair sample
+  double share = 1.0;       ///< of them that have been drawn; below 1 the picture is a sample: fair, and of groups that
+                            ///< cover few pixels no more of it than shows there
   double raster_ms = 0.0;   ///< that this call took to draw points; 0 where none had to be
   double resolve_ms = 0.0;  ///< to look up their colours; 0 where neither points nor colours changed
   std::size_t upload_bytes = 0;
@@ -58,13 +60,14 @@ class PointStage {
 
  private:
   [[nodiscard]] std::size_t startAnew(const PointCollection& points, int width_px, int height_px);
-  [[nodiscard]] std::uint32_t affordablePasses(const PointLimits& limits) const;
+  [[nodiscard]] std::uint32_t affordableEnd(const PointLimits& limits) const;
+  void noteRate(double points_per_ms, double points, bool is_first);
 
   std::unique_ptr<PointDrawer> drawer_;
   PointCollection drawn_;  // its arrays kept alive: an address alone may have been given anew
   int width_px_ = 0;
   int height_px_ = 0;
-  std::size_t in_view_ = 0;   // of its points
+  PointsInView in_view_;
   std::uint32_t passes_ = 0;  // drawn of them
   double points_per_ms_;      // measured
   double resolve_ms_ = 0.0;   // measured

@@ -8,13 +8,16 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
+#include <optional>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "scenegraph/pipeline/half_float.h"
+#include "scenegraph/raster/point_canvas.h"
 #include "scenegraph/raster/point_shading.h"
+#include "scenegraph/raster/points_in_view.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -29,8 +32,7 @@ namespace {
 
 constexpr std::size_t kBlock = 256;                     // points projected at a time: stays in the first cache
 constexpr std::size_t kPiece = std::size_t{64} * 1024;  // points a task
-constexpr std::int32_t kSubpixels = 256;
-constexpr float kMaxSizePx = 255.0F;  // as in the shader of the points
+constexpr float kMaxSizePx = 255.0F;                    // as in the shader of the points
 
 /// A batch in the numbers that the inner loop needs.
 struct Projection {
@@ -81,80 +83,14 @@ void project(Block& block, std::size_t count, const Projection& projection) {
   }
 }
 
-/// Pixels of one axis: first and end.
-struct Span {
-  std::int32_t first;
-  std::int32_t end;
-};
-
-/// Of a disc: pixels whose centres lie within `size` about the centre, all in 1/256 of a pixel.
-Span coveredByDisc(std::int32_t centre, std::int32_t size, std::int32_t limit_px) {
-  const std::int32_t low = centre - kSubpixels / 2 - size / 2;
-  return {std::max((low + kSubpixels - 1) >> 8, 0), std::min((low + size + kSubpixels - 1) >> 8, limit_px)};
+/// Edge of a point's square in the picture, at this 1 / w.
+float sizePx(const Projection& projection, float per_w) {
+  const float scale = projection.is_size_in_metres ? std::min(per_w, 1e6F) : 1.0F;
+  return std::clamp(projection.size * scale, 1.0F, kMaxSizePx);
 }
-
-/// Of a square: OpenGL moves it on to the grid of pixels (4.6, 14.4: an odd width to a pixel's centre, an even one to a
-/// corner).
-Span coveredBySquare(std::int32_t centre, std::int32_t size_px, std::int32_t limit_px) {
-  const std::int32_t first = ((centre + (size_px % 2 == 0 ? kSubpixels / 2 : 0)) >> 8) - size_px / 2;
-  return {std::max(first, 0), std::min(first + size_px, limit_px)};
-}
-
-/// The picture that all threads write into.
-class Canvas {
- public:
-  Canvas(std::uint64_t* keys, int width_px, int height_px) : keys_(keys), width_px_(width_px), height_px_(height_px) {}
-
-  void onePixel(std::int32_t x, std::int32_t y, std::uint64_t key) const {
-    const std::int32_t column = std::min(x >> 8, width_px_ - 1);
-    const std::int32_t row = std::min(y >> 8, height_px_ - 1);
-    store(static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px_) + static_cast<std::size_t>(column), key);
-  }
-
-  void square(std::int32_t x, std::int32_t y, float size_px, std::uint64_t key) const {
-    const auto size = static_cast<std::int32_t>(std::lrint(size_px));
-    const Span columns = coveredBySquare(x, size, width_px_);
-    const Span rows = coveredBySquare(y, size, height_px_);
-    for (std::int32_t row = rows.first; row < rows.end; ++row) {
-      const std::size_t begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px_);
-      for (std::int32_t column = columns.first; column < columns.end; ++column) {
-        store(begin + static_cast<std::size_t>(column), key);
-      }
-    }
-  }
-
-  void disc(std::int32_t x, std::int32_t y, float size_px, std::uint64_t key) const {
-    const auto size = static_cast<std::int32_t>(size_px * static_cast<float>(kSubpixels) + 0.5F);
-    const Span columns = coveredByDisc(x, size, width_px_);
-    const Span rows = coveredByDisc(y, size, height_px_);
-    const std::int64_t reach = std::int64_t{size} * size;
-    for (std::int32_t row = rows.first; row < rows.end; ++row) {
-      const std::int64_t from_y = 2 * (std::int64_t{row} * kSubpixels + kSubpixels / 2 - y);
-      const std::size_t begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px_);
-      for (std::int32_t column = columns.first; column < columns.end; ++column) {
-        const std::int64_t from_x = 2 * (std::int64_t{column} * kSubpixels + kSubpixels / 2 - x);
-        if (from_x * from_x + from_y * from_y <= reach) {
-          store(begin + static_cast<std::size_t>(column), key);
-        }
-      }
-    }
-  }
-
- private:
-  void store(std::size_t pixel, std::uint64_t key) const {
-    const std::atomic_ref<std::uint64_t> seen{keys_[pixel]};
-    std::uint64_t there = seen.load(std::memory_order_relaxed);
-    while (there < key && !seen.compare_exchange_weak(there, key, std::memory_order_relaxed)) {
-    }
-  }
-
-  std::uint64_t* keys_;
-  int width_px_;
-  int height_px_;
-};
 
 void scatter(const Block& block, std::span<const std::uint32_t> numbers, const Projection& projection,
-             const Canvas& canvas) {
+             const PointCanvas& canvas) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (block.depth[i] <= 0.0F) {
       continue;
@@ -164,8 +100,7 @@ void scatter(const Block& block, std::span<const std::uint32_t> numbers, const P
     if (projection.is_one_pixel) {
       canvas.onePixel(block.window_x[i], block.window_y[i], key);
     } else {
-      const float scale = projection.is_size_in_metres ? std::min(block.per_w[i], 1e6F) : 1.0F;
-      const float size_px = std::clamp(projection.size * scale, 1.0F, kMaxSizePx);
+      const float size_px = sizePx(projection, block.per_w[i]);
       if (projection.is_round) {
         canvas.disc(block.window_x[i], block.window_y[i], size_px, key);
       } else {
@@ -205,7 +140,7 @@ struct RayPoints {
 template <typename Points>
 class Feeder {
  public:
-  Feeder(const Points& points, const Projection& projection, const Canvas& canvas)
+  Feeder(const Points& points, const Projection& projection, const PointCanvas& canvas)
       : points_(points), projection_(projection), canvas_(canvas) {}
 
   void add(std::uint32_t number) {
@@ -228,7 +163,7 @@ class Feeder {
  private:
   const Points points_;
   const Projection& projection_;
-  const Canvas& canvas_;
+  const PointCanvas& canvas_;
   std::size_t filled_ = 0;
   std::array<std::uint32_t, kBlock> numbers_;
   Block block_;
@@ -253,11 +188,13 @@ Projection projectionOf(const PointBatch& batch, int width_px, int height_px, st
 
 /// The points of one group that the passes take, in the order of memory: a third of the time of their own order.
 template <typename Points>
-void drawGroup(Feeder<Points>& feeder, const PassRange& passes, std::uint32_t first, std::uint32_t end) {
+void drawGroup(Feeder<Points>& feeder, const GroupTurns& turns, std::uint32_t first, std::uint32_t end) {
   std::array<std::uint64_t, kPassesOfSample / 64> taken{};
-  for (std::uint32_t pass = passes.first; pass < passes.end; ++pass) {
-    const std::uint32_t place = placeInGroup(first / kPassesOfSample, pass);
-    taken[place / 64] |= std::uint64_t{1} << (place % 64);
+  for (const PassRange& passes : {turns.first_lap, turns.second_lap}) {
+    for (std::uint32_t pass = passes.first; pass < passes.end; ++pass) {
+      const std::uint32_t place = placeInGroup(first / kPassesOfSample, pass);
+      taken[place / 64] |= std::uint64_t{1} << (place % 64);
+    }
   }
   for (std::size_t word = 0; word < taken.size(); ++word) {
     for (std::uint64_t left = taken[word]; left != 0; left &= left - 1) {
@@ -271,31 +208,51 @@ void drawGroup(Feeder<Points>& feeder, const PassRange& passes, std::uint32_t fi
 
 /// A piece of a batch: what all threads need of it.
 struct Piece {
-  std::span<const PointBox> boxes;
+  const PointBatch& batch;
   const Projection& projection;
-  const Canvas& canvas;
+  const PointCanvas& canvas;
   const BoxCull& cull;
+  const BoxProjector& projector;
   const PassRange& passes;
 };
 
+/// What is to be drawn of a group: nothing where nothing of it shows.
+GroupTurns turnsOfGroup(const Piece& piece, std::size_t group) {
+  if (group >= piece.batch.boxes.size()) {
+    return turnsOf(piece.passes, kPassesOfSample);
+  }
+  const PointBox& box = piece.batch.boxes[group];
+  if (!piece.cull.mayBeSeen(box)) {
+    return {};
+  }
+  const std::optional<BoxOnScreen> place = piece.projector.project(box);
+  const GroupTurns turns = turnsOf(piece.passes, pointsWorthDrawing(piece.batch, place));
+  constexpr std::uint32_t kPixelsAPoint = 4;  // to look at a pixel costs a tenth of a point
+  const bool is_hidden = place && turns.count() > 0 &&
+                         piece.canvas.isHidden(*place, sizePx(piece.projection, static_cast<float>(place->most_per_w)),
+                                               std::size_t{turns.count()} * kPixelsAPoint);
+  return is_hidden ? GroupTurns{} : turns;
+}
+
+/// Returns how many points were drawn.
 template <typename Points>
-void drawPiece(const Points& points, const Piece& piece, std::uint32_t begin, std::uint32_t end) {
+std::size_t drawPiece(const Points& points, const Piece& piece, std::uint32_t begin, std::uint32_t end) {
   Feeder<Points> feeder(points, piece.projection, piece.canvas);
+  std::size_t drawn = 0;
   for (std::uint32_t first = begin; first < end; first += kPassesOfSample) {
-    const std::size_t group = first / kPassesOfSample;
-    if (group < piece.boxes.size() && !piece.cull.mayBeSeen(piece.boxes[group])) {
-      continue;
-    }
-    if (piece.passes.isWhole()) {
+    const GroupTurns turns = turnsOfGroup(piece, first / kPassesOfSample);
+    drawn += turns.count();
+    if (turns.count() == kPassesOfSample) {
       const std::uint32_t behind = std::min(first + kPassesOfSample, end);
       for (std::uint32_t number = first; number < behind; ++number) {
         feeder.add(number);
       }
-    } else {
-      drawGroup(feeder, piece.passes, first, end);
+    } else if (turns.count() > 0) {
+      drawGroup(feeder, turns, first, end);
     }
   }
   feeder.flush();
+  return drawn;
 }
 
 }  // namespace
@@ -304,21 +261,6 @@ struct PointRaster::Threads {
   explicit Threads(unsigned count) : arena(count == 0 ? tbb::task_arena::automatic : static_cast<int>(count)) {}
   tbb::task_arena arena;
 };
-
-std::size_t countInView(const PointBatch& batch) {
-  if (batch.boxes.empty()) {
-    return batch.count();
-  }
-  const BoxCull cull(batch.clip_from_points);
-  std::size_t count = 0;
-  for (std::size_t group = 0; group < batch.boxes.size(); ++group) {
-    const std::size_t first = group * kPassesOfSample;
-    if (first < batch.count() && cull.mayBeSeen(batch.boxes[group])) {
-      count += std::min<std::size_t>(kPassesOfSample, batch.count() - first);
-    }
-  }
-  return count;
-}
 
 float PointKey::depth(std::uint64_t key) noexcept {
   return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32U));
@@ -334,16 +276,18 @@ void PointRaster::begin(int width_px, int height_px) {
   keys_.assign(static_cast<std::size_t>(width_px_) * static_cast<std::size_t>(height_px_), 0);
 }
 
-void PointRaster::draw(std::span<const PointBatch> batches, const PassRange& passes) {
+std::size_t PointRaster::draw(std::span<const PointBatch> batches, const PassRange& passes) {
   if (keys_.empty()) {
-    return;
+    return 0;
   }
-  const Canvas canvas(keys_.data(), width_px_, height_px_);
+  std::atomic<std::size_t> drawn{0};
+  const PointCanvas canvas(keys_.data(), width_px_, height_px_);
   std::uint32_t first_number = 0;
   for (const PointBatch& batch : batches) {
     const Projection projection = projectionOf(batch, width_px_, height_px_, first_number);
     const BoxCull cull(batch.clip_from_points);
-    const Piece shared{batch.boxes, projection, canvas, cull, passes};
+    const BoxProjector projector(batch.clip_from_points, width_px_, height_px_);
+    const Piece shared{batch, projection, canvas, cull, projector, passes};
     const bool has_depths = !batch.depths.empty();
     const std::size_t count = has_depths ? std::min(batch.count(), batch.depths.size()) : batch.count();
     threads_->arena.execute([&] {
@@ -351,15 +295,16 @@ void PointRaster::draw(std::span<const PointBatch> batches, const PassRange& pas
         const auto begin = static_cast<std::uint32_t>(piece * kPiece);
         const auto end = static_cast<std::uint32_t>(std::min(piece * kPiece + kPiece, count));
         if (has_depths) {
-          drawPiece(RayPoints{batch.positions.data(), batch.depths.data(), batch.unit, batch.farthest}, shared, begin,
-                    end);
+          const RayPoints points{batch.positions.data(), batch.depths.data(), batch.unit, batch.farthest};
+          drawn += drawPiece(points, shared, begin, end);
         } else {
-          drawPiece(PlainPoints{batch.positions.data()}, shared, begin, end);
+          drawn += drawPiece(PlainPoints{batch.positions.data()}, shared, begin, end);
         }
       });
     });
     first_number += static_cast<std::uint32_t>(batch.count());
   }
+  return drawn;
 }
 
 void PointRaster::resolve(const PointShading& shading, std::span<std::uint16_t> rgba, std::span<float> depth) const {

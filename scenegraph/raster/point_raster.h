@@ -39,9 +39,6 @@ struct PointBatch {
   }
 };
 
-/// Points of the groups that may be seen, all of those without boxes: what drawing a batch costs. Some 20 ns a group.
-[[nodiscard]] std::size_t countInView(const PointBatch& batch);
-
 /// What is seen at a pixel, as PointRaster::keys() holds it: 0 is nothing.
 struct PointKey {
   /// Window depth, reverse-Z.
@@ -73,9 +70,10 @@ class PointRaster {
 
   /// Starts an empty picture. Sizes below 1 draw nothing; the memory of an earlier picture is kept for the next.
   void begin(int width_px, int height_px);
-  /// Draws these passes of all batches (at most 2^32 - 1 points) on top of what is there. Groups of points whose box is
-  /// out of the picture are left out.
-  void draw(std::span<const PointBatch> batches, const PassRange& passes = {});
+  /// Draws these passes of all batches (at most 2^32 - 1 points) on top of what is there. Left out are groups of points
+  /// whose box is out of the picture, and small ones that lie behind what has been drawn: neither shows. Returns how
+  /// many points that left, which may differ between runs where more than one thread works.
+  std::size_t draw(std::span<const PointBatch> batches, const PassRange& passes = {});
 
   /// The picture in colour: linear red, green, blue and alpha of PointShading as half floats, and reverse-Z depth; all
   /// 0 where nothing was drawn. One pixel a key; `shading` is that of the batches drawn.

@@ -37,13 +37,38 @@ inline constexpr std::uint32_t kPassesOfSample = 1024;
   return scrambled >> 6U;
 }
 
-/// A run of passes, first to last; the whole cloud by default.
+/// The passes are gone through twice. What a group gives in the first lap ends after its own `most` passes, a power of
+/// two: where it covers few pixels, more of its points than that fall on one another, and the time goes to groups that
+/// are seen larger. The second lap takes what is left of every group, so that in the end each point has been taken
+/// once.
+inline constexpr std::uint32_t kPassesOfBothLaps = 2 * kPassesOfSample;
+
+/// A run of passes of both laps, first to last; the whole cloud by default.
 struct PassRange {
   std::uint32_t first = 0;
-  std::uint32_t end = kPassesOfSample;
+  std::uint32_t end = kPassesOfBothLaps;
 
-  [[nodiscard]] constexpr bool isWhole() const noexcept { return first == 0 && end == kPassesOfSample; }
+  [[nodiscard]] constexpr bool isWhole() const noexcept { return first == 0 && end == kPassesOfBothLaps; }
   friend constexpr bool operator==(const PassRange&, const PassRange&) = default;
 };
+
+/// The passes below kPassesOfSample that a run takes of one group: those of the first lap, and those of the second.
+struct GroupTurns {
+  PassRange first_lap{0, 0};
+  PassRange second_lap{0, 0};
+
+  [[nodiscard]] constexpr std::uint32_t count() const noexcept {
+    return first_lap.end - first_lap.first + second_lap.end - second_lap.first;
+  }
+};
+
+[[nodiscard]] constexpr GroupTurns turnsOf(const PassRange& run, std::uint32_t most) noexcept {
+  const auto within = [](std::uint32_t pass, std::uint32_t low, std::uint32_t high) {
+    return pass < low ? low : pass > high ? high : pass;
+  };
+  constexpr std::uint32_t kLap = kPassesOfSample;
+  return {{within(run.first, 0, most), within(run.end, 0, most)},
+          {within(run.first, kLap + most, 2 * kLap) - kLap, within(run.end, kLap + most, 2 * kLap) - kLap}};
+}
 
 }  // namespace stillframe::scenegraph

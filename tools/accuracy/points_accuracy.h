@@ -14,7 +14,7 @@ namespace stillframe::accuracy {
 /// A picture of a part of a scene's points, held against the picture of all.
 struct PointsAccuracyRow {
   std::string method;         ///< "CPU", "CPU, 16 bit" (positions), "compute", "OpenGL"
-  double share = 1.0;         ///< of the points that are drawn, in the order of sample_order.h
+  double share = 1.0;         ///< of the points in view that are drawn, in the order of sample_order.h
   double milliseconds = 0.0;  ///< a whole frame, the shortest of several
   double wrong = 0.0;         ///< share of the pixels with points in either picture whose colour is a step off or more
   double holes = 0.0;         ///< share of the pixels with points in the whole picture that have none here

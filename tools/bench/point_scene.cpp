@@ -96,10 +96,19 @@ scenegraph::CameraView viewOfPoints(int step) {
   return {.eye_from_fixed = scenegraph::lookAt({0, 0, 0}, {std::cos(angle), std::sin(angle), -0.2}, {0, 0, 1})};
 }
 
-scenegraph::CameraView viewOfAllPoints(int step) {
+namespace {
+
+scenegraph::CameraView viewFrom(double times_as_far, int step) {
   const double angle = kStepAngle * step;
-  return {.eye_from_fixed =
-              scenegraph::lookAt({110 * std::cos(angle), 110 * std::sin(angle), 90}, {0, 0, -5}, {0, 0, 1})};
+  const double reach_m = 110.0 * times_as_far;
+  return {.eye_from_fixed = scenegraph::lookAt(
+              {reach_m * std::cos(angle), reach_m * std::sin(angle), 90.0 * times_as_far}, {0, 0, -5}, {0, 0, 1})};
 }
+
+}  // namespace
+
+scenegraph::CameraView viewOfAllPoints(int step) { return viewFrom(1.0, step); }
+
+scenegraph::CameraView viewFromAfar(int step) { return viewFrom(10.0, step); }
 
 }  // namespace stillframe::bench

@@ -25,5 +25,7 @@ struct PointSceneShape {
 [[nodiscard]] scenegraph::CameraView viewOfPoints(int step);
 /// From outside, where all of it is seen.
 [[nodiscard]] scenegraph::CameraView viewOfAllPoints(int step);
+/// From ten times as far.
+[[nodiscard]] scenegraph::CameraView viewFromAfar(int step);
 
 }  // namespace stillframe::bench

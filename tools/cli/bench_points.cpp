@@ -15,6 +15,7 @@
 #include "scenegraph/pipeline/offscreen_renderer.h"
 #include "scenegraph/pipeline/point_collection.h"
 #include "scenegraph/raster/point_raster.h"
+#include "scenegraph/raster/points_in_view.h"
 #include "scenegraph/scene.h"
 #include "tools/bench/point_scene.h"
 #include "tools/cli/bench_results.h"
@@ -131,11 +132,15 @@ Frame never() {
   return {.wall_ms = kInfinity, .cpu_ms = kInfinity};
 }
 
+scenegraph::PointCollection pointsOf(View& view, const scenegraph::CameraView& camera) {
+  const glm::dmat4 clip_from_eye = scenegraph::projection(camera, static_cast<double>(kWidthPx) / kHeightPx);
+  return scenegraph::collectPoints(view.scene->root(), osg::Matrixd(&camera.eye_from_fixed[0][0]),
+                                   osg::Matrixd(&clip_from_eye[0][0]), kHeightPx);
+}
+
 /// The loop over points alone, of what the view draws: what everything else is measured against.
 double bareMs(View& view, const scenegraph::CameraView& camera, scenegraph::PointRaster& raster) {
-  const glm::dmat4 clip_from_eye = scenegraph::projection(camera, static_cast<double>(kWidthPx) / kHeightPx);
-  const scenegraph::PointCollection points = scenegraph::collectPoints(
-      view.scene->root(), osg::Matrixd(&camera.eye_from_fixed[0][0]), osg::Matrixd(&clip_from_eye[0][0]), kHeightPx);
+  const scenegraph::PointCollection points = pointsOf(view, camera);
   return 1e3 * secondsOf([&] {
            raster.begin(kWidthPx, kHeightPx);
            raster.draw(points.batches);
@@ -193,12 +198,32 @@ void benchFrames(std::vector<BenchResult>& results, const std::string& name, con
   }
 }
 
+/// What blocks leave out: of the points all that are out of the picture or behind others, and while the picture refines
+/// what is more than their pixels are worth.
+void benchBlocks(std::vector<BenchResult>& results, const std::string& name, View& view,
+                 const scenegraph::CameraView& camera) {
+  const scenegraph::PointCollection points = pointsOf(view, camera);
+  scenegraph::PointsInView in_view;
+  for (const scenegraph::PointBatch& batch : points.batches) {
+    in_view.add(batch, kWidthPx, kHeightPx);
+  }
+  scenegraph::PointRaster raster;
+  raster.begin(kWidthPx, kHeightPx);
+  const std::size_t whole = raster.draw(points.batches);
+  const auto percent = [&](double part) { return 100.0 * part / static_cast<double>(points.count); };
+  results.push_back({name + ", points in view", percent(static_cast<double>(in_view.count())), "%"});
+  results.push_back(
+      {name + ", points of the first lap", percent(in_view.drawnBefore(scenegraph::kPassesOfSample)), "%"});
+  results.push_back({name + ", points drawn for the whole", percent(static_cast<double>(whole)), "%"});
+}
+
 /// Frames while the camera moves, within and about the points.
 void benchMoving(std::vector<BenchResult>& results, const std::string& name, const bench::PointSceneShape& shape) {
   Views scene(bench::makePointDataset(shape), shape.layers, 1);
   scene.update();
   for (const auto& [where, camera] :
-       {std::pair("from outside", &bench::viewOfAllPoints), std::pair("from within", &bench::viewOfPoints)}) {
+       {std::pair("from outside", &bench::viewOfAllPoints), std::pair("from within", &bench::viewOfPoints),
+        std::pair("from afar", &bench::viewFromAfar)}) {
     std::vector<double> frames_ms;
     double share = 0.0;
     for (int step = 0; step < 40; ++step) {
@@ -212,6 +237,7 @@ void benchMoving(std::vector<BenchResult>& results, const std::string& name, con
     const std::string moving = name + ", moving, " + where;
     results.push_back({moving + ", median frame / budget of 33 ms", quantile(frames_ms, 0.5) / kBudgetMs, "", 1.3});
     results.push_back({moving + ", points drawn", 100.0 * share, "%"});
+    benchBlocks(results, name + ", " + where, scene.front(), camera(0));
   }
 }
 
@@ -231,7 +257,7 @@ std::string nameOf(const bench::PointSceneShape& shape, int views) {
 void benchPoints(std::vector<BenchResult>& results) {
   for (const std::size_t points : {1'000'000U, 10'000'000U}) {
     for (const bool is_shuffled : {true, false}) {
-      for (const auto& [layers, views] : {std::pair(1, 1), std::pair(4, 1), std::pair(1, 4)}) {
+      for (const auto& [layers, views] : {std::pair(1, 1), std::pair(4, 1), std::pair(1, 4), std::pair(4, 4)}) {
         const bench::PointSceneShape shape{.points = points, .is_shuffled = is_shuffled, .layers = layers};
         benchFrames(results, nameOf(shape, views), shape, views);
       }

@@ -1,12 +1,13 @@
 #version 450
 // Points into a picture of depths and numbers, a group of 1024 of them a work group: see scenegraph/raster/point_raster.h,
 // whose arithmetic this repeats. Drawn twice: u_step 0 finds the nearest depth of each pixel, u_step 1 the first point
-// that has it. In: positions, in the points' own frame, or rays; depths of rays; groups, those that may be seen.
+// that has it. In: positions, in the points' own frame, or rays; depths of rays; groups, those that may be seen: number,
+// and passes of the first lap.
 // Out: nearest, bits of reverse-Z depth; numbers, ~0 where nobody is.
 layout(local_size_x = 256) in;
 layout(std430, binding = 0) readonly buffer Positions { float positions[]; };
 layout(std430, binding = 1) readonly buffer Depths { float depths[]; };
-layout(std430, binding = 2) readonly buffer Groups { uint groups[]; };
+layout(std430, binding = 2) readonly buffer Groups { uvec2 groups[]; };
 layout(std430, binding = 3) buffer Nearest { uint nearest[]; };
 layout(std430, binding = 4) buffer Numbers { uint numbers[]; };
 uniform int u_step;
@@ -16,7 +17,7 @@ uniform uvec2 u_group_range;   // of groups[]: first and count
 uniform uint u_slice_group;    // the group that the bound buffers begin with
 uniform uint u_point_count;    // of the whole cloud
 uniform uint u_first_number;   // of the whole cloud
-uniform uvec2 u_passes;        // of sample_order.h: first and end
+uniform uvec2 u_passes;        // of both laps of sample_order.h: first and end
 uniform float u_point_size;
 uniform bool u_size_in_metres;
 uniform bool u_round;
@@ -114,9 +115,15 @@ void main() {
   if (place >= u_group_range.y) {
     return;
   }
-  uint group = groups[u_group_range.x + place];
-  bool is_whole = u_passes == uvec2(0u, kGroup);
-  for (uint pass = u_passes.x + gl_LocalInvocationID.x; pass < u_passes.y; pass += gl_WorkGroupSize.x) {
+  uint group = groups[u_group_range.x + place].x;
+  uint most = groups[u_group_range.x + place].y;
+  bool is_whole = u_passes == uvec2(0u, 2u * kGroup);
+  uint end = is_whole ? kGroup : u_passes.y;
+  for (uint turn = u_passes.x + gl_LocalInvocationID.x; turn < end; turn += gl_WorkGroupSize.x) {
+    uint pass = turn & (kGroup - 1u);
+    if (!is_whole && (pass < most) != (turn < kGroup)) {
+      continue;
+    }
     uint in_group = is_whole ? pass : placeInGroup(group, pass);
     uint number = group * kGroup + in_group;
     if (number >= u_point_count) {

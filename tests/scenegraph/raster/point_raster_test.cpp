@@ -9,20 +9,21 @@
 #include <random>
 #include <set>
 
+#include "scenegraph/raster/points_in_view.h"
+#include "tests/scenegraph/raster/point_clusters.h"
+
 namespace stillframe::scenegraph {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+using test::clusters;
+using test::kInfinity;
+using test::kNan;
+using test::perspective;
 
-/// Reverse-Z, 90 degrees, from the origin along -z.
-glm::dmat4 perspective(double near_m) {
-  glm::dmat4 clip_from_eye(0.0);
-  clip_from_eye[0][0] = 1.0;
-  clip_from_eye[1][1] = 1.0;
-  clip_from_eye[2][3] = -1.0;
-  clip_from_eye[3][2] = near_m;
-  return clip_from_eye;
+std::size_t countInView(const PointBatch& batch) {
+  PointsInView seen;
+  seen.add(batch, 160, 100);
+  return seen.count();
 }
 
 std::vector<float> randomCloud(std::size_t count, unsigned seed) {
@@ -146,8 +147,8 @@ TEST(PointRaster, DependsNeitherOnThreadsNorOnPassesNorOnBatches) {
 
   PointRaster raster(3);
   raster.begin(320, 200);
-  for (std::uint32_t first = 0; first < kPassesOfSample; first += 100) {
-    raster.draw({&whole, 1}, {first, std::min(first + 100, kPassesOfSample)});
+  for (std::uint32_t first = 0; first < kPassesOfBothLaps; first += 100) {
+    raster.draw({&whole, 1}, {first, std::min(first + 100, kPassesOfBothLaps)});
   }
   EXPECT_TRUE(std::ranges::equal(raster.keys(), reference));
 }
@@ -184,24 +185,6 @@ TEST(PointRaster, SurvivesDegenerateMatrices) {
   }
 }
 
-/// A lidar's cloud: groups of neighbours all around, near and far.
-std::vector<float> clusters(std::size_t groups) {
-  std::mt19937 random(11);
-  std::uniform_real_distribution<float> unit(-1.0F, 1.0F);
-  std::vector<float> cloud;
-  for (std::size_t group = 0; group < groups; ++group) {
-    const float reach = std::pow(10.0F, 2.0F * unit(random));
-    const std::array<float, 3> centre{reach * unit(random), reach * unit(random), reach * unit(random)};
-    for (std::size_t i = 0; i < kPassesOfSample; ++i) {
-      for (const float at : centre) {
-        cloud.push_back(at + 0.3F * reach * unit(random));
-      }
-    }
-  }
-  cloud.resize(cloud.size() - 3 * 700);  // a short last group
-  return cloud;
-}
-
 TEST(PointRaster, LeavesOutGroupsThatAreOutOfThePictureAndNothingElse) {
   std::vector<float> cloud = clusters(60);
   cloud[5] = kNan;
@@ -223,32 +206,76 @@ TEST(PointRaster, LeavesOutGroupsThatAreOutOfThePictureAndNothingElse) {
       PointRaster stepwise(2);
       stepwise.begin(160, 100);
       stepwise.draw({&batch, 1}, {0, 300});
-      stepwise.draw({&batch, 1}, {300, kPassesOfSample});
+      stepwise.draw({&batch, 1}, {300, 1500});
+      stepwise.draw({&batch, 1}, {1500, kPassesOfBothLaps});
       EXPECT_TRUE(std::ranges::equal(stepwise.keys(), reference));
     }
   }
   EXPECT_LT(in_view, 12 * cloud.size() / 3 * 8 / 10);
 }
 
-TEST(PointBlocks, ABoxHoldsItsPointsButNoNan) {
-  const std::vector<float> cloud{1.0F, 2.0F, 3.0F, kNan, -5.0F, 7.0F, -1.0F, 4.0F, kNan};
-  const std::vector<PointBox> boxes = boxesOf(cloud);
-  ASSERT_EQ(boxes.size(), 1U);
-  EXPECT_THAT(boxes[0].low, testing::ElementsAre(-1.0F, -5.0F, 3.0F));
-  EXPECT_THAT(boxes[0].high, testing::ElementsAre(1.0F, 4.0F, 7.0F));
-  EXPECT_TRUE(boxesOf({}).empty());
+/// Walls of groups of points across the view, one behind another, as a scanner might order them.
+std::vector<float> walls(const std::vector<float>& distances) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+  constexpr int kAcross = 16;
+  std::vector<float> cloud;
+  for (const float distance : distances) {
+    const float edge = 2.4F * distance / kAcross;
+    for (int group = 0; group < kAcross * kAcross; ++group) {
+      for (std::uint32_t i = 0; i < kPassesOfSample; ++i) {
+        const auto column = static_cast<float>(group % kAcross - kAcross / 2);
+        const auto row = static_cast<float>(group / kAcross - kAcross / 2);
+        cloud.insert(cloud.end(), {(column + unit(random)) * edge, (row + unit(random)) * edge, -distance});
+      }
+    }
+  }
+  return cloud;
 }
 
-TEST(PointBlocks, WhatCannotBeJudgedIsKept) {
-  const PointBox everywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
-  const PointBox here{{-1.0F, -1.0F, -2.0F}, {1.0F, 1.0F, -1.0F}};
-  EXPECT_TRUE(BoxCull(perspective(0.1)).mayBeSeen(everywhere));
-  for (const double entry : {static_cast<double>(kNan), static_cast<double>(kInfinity)}) {
-    EXPECT_TRUE(BoxCull(glm::dmat4(entry)).mayBeSeen(here));
+TEST(PointRaster, LeavesOutSmallGroupsBehindWhatIsSeen) {
+  const std::vector<float> cloud = walls({2.0F, 5.0F, 11.0F});
+  const std::vector<PointBox> boxes = boxesOf(cloud);
+  for (const float size : {1.0F, 3.0F}) {
+    PointBatch batch{.positions = cloud, .clip_from_points = perspective(0.1), .size = size};
+    const std::vector<std::uint64_t> reference = drawn({&batch, 1}, 128, 128);
+    batch.boxes = boxes;
+    PointRaster raster(1);
+    raster.begin(128, 128);
+    EXPECT_LT(raster.draw({&batch, 1}), batch.count() / 2) << "the two walls behind";
+    EXPECT_TRUE(std::ranges::equal(raster.keys(), reference));
+    batch.positions = std::span(cloud).first(cloud.size() / 3);
+    batch.boxes = std::span(boxes).first(boxes.size() / 3);
+    EXPECT_GT(raster.draw({&batch, 1}), batch.count() / 2) << "a wall does not hide itself";
   }
-  EXPECT_FALSE(BoxCull(perspective(0.1)).mayBeSeen({{-1.0F, -1.0F, 1.0F}, {1.0F, 1.0F, 2.0F}})) << "behind the eye";
-  // A point on the very border, by whatever way it is computed.
-  EXPECT_TRUE(BoxCull(perspective(0.1)).mayBeSeen({{1.0F, 0.0F, -1.0F}, {1.0F, 0.0F, -1.0F}}));
+}
+
+TEST(PointRaster, SpendsNoMorePointsOnAFarGroupThanItsPixelsAreWorthUntilTheLastLap) {
+  const std::vector<float> cloud = walls({1.0F});
+  const std::vector<PointBox> boxes = boxesOf(cloud);
+  const auto covered = [](const PointRaster& raster) {
+    return std::ranges::count_if(raster.keys(), [](std::uint64_t key) { return key != 0; });
+  };
+  for (const double away_m : {8.0, 40.0, 200.0}) {
+    const PointBatch batch{
+        .positions = cloud,
+        .clip_from_points = perspective(0.1) * glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.0, -away_m)),
+        .boxes = boxes};
+    PointRaster whole(2);
+    whole.begin(160, 100);
+    whole.draw({&batch, 1});
+    PointRaster stepwise(2);
+    stepwise.begin(160, 100);
+    EXPECT_LT(stepwise.draw({&batch, 1}, {0, kPassesOfSample}), batch.count() / 20) << away_m;
+    EXPECT_GE(covered(stepwise), covered(whole) * 95 / 100) << away_m;
+    stepwise.draw({&batch, 1}, {kPassesOfSample, kPassesOfBothLaps});
+    EXPECT_TRUE(std::ranges::equal(stepwise.keys(), whole.keys())) << away_m;
+    PointsInView in_view;
+    in_view.add(batch, 160, 100);
+    EXPECT_EQ(in_view.count(), batch.count());
+    EXPECT_LT(in_view.drawnBefore(kPassesOfSample), static_cast<double>(batch.count()) / 20.0);
+    EXPECT_EQ(in_view.drawnBefore(kPassesOfBothLaps), static_cast<double>(batch.count()));
+  }
 }
 
 TEST(PointRaster, DrawsPixelsOfADepthImageWhereTheirRaysLead) {
@@ -293,38 +320,6 @@ TEST(PointRaster, APictureWithoutPixelsOrPointsIsEmpty) {
   const PointBatch none;
   raster.draw({&none, 1});
   EXPECT_THAT(raster.keys(), testing::Each(0U));
-}
-
-TEST(SampleOrder, EveryGroupGivesEachPointOnce) {
-  for (const std::uint32_t group : {0U, 1U, 77U, 0xffffffffU}) {
-    std::set<std::uint32_t> places;
-    for (std::uint32_t pass = 0; pass < kPassesOfSample; ++pass) {
-      places.insert(placeInGroup(group, pass));
-    }
-    EXPECT_EQ(places.size(), kPassesOfSample);
-    EXPECT_EQ(*places.rbegin(), kPassesOfSample - 1);
-  }
-}
-
-TEST(SampleOrder, APrefixTakesAsMuchOfEachRingAndOfEachStretch) {
-  // 64 rings interleaved point by point, and 64 stretches one after another, of a million points.
-  constexpr std::uint32_t kGroups = 1024;
-  for (const std::uint32_t passes : {1U, 3U, 10U, 100U}) {
-    std::array<std::uint32_t, 64> rings{};
-    for (std::uint32_t group = 0; group < kGroups; ++group) {
-      std::uint32_t early = 0;
-      for (std::uint32_t pass = 0; pass < passes; ++pass) {
-        const std::uint32_t place = placeInGroup(group, pass);
-        ++rings[place % 64];
-        early += place < kPassesOfSample / 2 ? 1 : 0;
-      }
-      EXPECT_LE(std::abs(2 * static_cast<int>(early) - static_cast<int>(passes)), 1) << "group " << group;
-    }
-    const double expected = static_cast<double>(kGroups) * passes / 64.0;
-    for (const std::uint32_t taken : rings) {
-      EXPECT_NEAR(taken, expected, 5.0 * std::sqrt(expected)) << passes << " passes";
-    }
-  }
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "generated/stillframe_nodes/shaders.h"
 #include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
+#include "scenegraph/known_bound.h"
 
 namespace stillframe::nodes {
 namespace {
@@ -69,6 +70,7 @@ MeshArrays::MeshArrays(const MeshData& mesh) {
     const MeshMaterial& material = mesh.materials[submesh.material];
     Part part;
     part.triangles = trianglesOf(std::span(mesh.indices).subspan(submesh.first_index, submesh.index_count));
+    part.box = boxOf(*part.triangles);
     part.color = {material.color[0], material.color[1], material.color[2], material.color[3]};
     part.has_own_color = material.is_from_file || colors_.valid();
     if (material.texture >= 0 && uvs_.valid()) {
@@ -82,9 +84,20 @@ MeshArrays::MeshArrays(const MeshData& mesh) {
 
 MeshArrays::MeshArrays(const TriangleMesh& mesh) {
   setVertices(mesh.positions, mesh.normals);
-  parts_.push_back({.triangles = trianglesOf(mesh.triangles), .texture = nullptr, .color = {}, .has_own_color = false});
+  Part part;
+  part.triangles = trianglesOf(mesh.triangles);
+  part.box = boxOf(*part.triangles);
+  parts_.push_back(std::move(part));
   triangles_ = mesh.triangles.size() / 3;
   bytes_ = sizeof(*this) + mesh.positions.size() * 2 * sizeof(glm::vec3) + mesh.triangles.size() * 4;
+}
+
+osg::BoundingBox MeshArrays::boxOf(const osg::DrawElementsUInt& triangles) const {
+  osg::BoundingBox box;
+  for (const unsigned index : triangles.asVector()) {
+    box.expandBy((*positions_)[index]);
+  }
+  return box;
 }
 
 void MeshArrays::setVertices(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals) {
@@ -107,6 +120,7 @@ osg::ref_ptr<osg::Group> MeshArrays::makeNode(const scenegraph::Color& color, bo
     geometry->setNormalArray(normals_);
     geometry->setColorArray(is_own && colors_.valid() ? colors_.get() : white_.get());
     geometry->addPrimitiveSet(part.triangles);
+    scenegraph::setKnownBound(*geometry, part.box);
     osg::StateSet& state = *geometry->getOrCreateStateSet();
     const float alpha = (is_overriding ? 1.0F : part.color.a) * color.a;
     const scenegraph::Color& shown = is_own ? part.color : color;

@@ -42,10 +42,12 @@ class MeshArrays {
  private:
   struct Part {
     osg::ref_ptr<osg::DrawElementsUInt> triangles;
+    osg::BoundingBox box;                  // of their vertices
     osg::ref_ptr<osg::Texture2D> texture;  // or nullptr
     scenegraph::Color color;
     bool has_own_color = false;
   };
+  [[nodiscard]] osg::BoundingBox boxOf(const osg::DrawElementsUInt& triangles) const;
   void setVertices(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals);
 
   osg::ref_ptr<osg::Vec3Array> positions_;

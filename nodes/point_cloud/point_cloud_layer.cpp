@@ -4,6 +4,7 @@
 #include "nodes/point_cloud/describe_point.h"
 #include "nodes/points/value_histogram.h"
 #include "scenegraph/geometry.h"
+#include "scenegraph/known_bound.h"
 
 namespace stillframe::nodes {
 
@@ -107,8 +108,11 @@ void PointCloudLayer::show() {
     geometry_->addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(product()->converted().points)));
     const auto frame_from_points = product()->source().pose;
     node().setMatrix(osg::Matrixd::translate(toOsg(product()->converted().origin)) * toOsg(frame_from_points));
+    const ConvertedCloud& cloud = product()->converted();
+    scenegraph::setKnownBound(*geometry_, {toOsg(cloud.box_min - cloud.origin), toOsg(cloud.box_max - cloud.origin)});
+  } else {
+    geometry_->dirtyBound();
   }
-  geometry_->dirtyBound();
 }
 
 /// Whether all is there that these colours need; sees to it that it will be.

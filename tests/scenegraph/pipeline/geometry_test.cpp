@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <osg/Group>
 #include <osg/observer_ptr>
 #include <string>
 
 #include "generated/geometry_test/shaders.h"
+#include "scenegraph/known_bound.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -28,6 +30,23 @@ TEST(MakeGeometry, BoundGivenCountsBesidesTheVertices) {
   geometry->addPrimitiveSet(new osg::DrawArrays{GL_POINTS, 0, 1});
   EXPECT_EQ(geometry->getBoundingBox().xMin(), -1);
   EXPECT_EQ(geometry->getBoundingBox().zMax(), 30);
+}
+
+TEST(KnownBound, IsTakenAtItsWordUntilItIsDirtied) {
+  const auto geometry = makeGeometry();
+  osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+  vertices->push_back({-1, 5, 5});
+  geometry->setVertexArray(vertices);
+  geometry->addPrimitiveSet(new osg::DrawArrays{GL_POINTS, 0, 1});
+  setKnownBound(*geometry, {0, 0, 0, 10, 20, 30});
+  osg::ref_ptr<osg::Group> above = new osg::Group;
+  above->addChild(geometry);
+  EXPECT_EQ(geometry->getBoundingBox().xMin(), 0) << "no vertex was looked at";
+  EXPECT_EQ(geometry->getBoundingBox().zMax(), 30);
+  EXPECT_EQ(above->getBound().center(), osg::Vec3(5, 10, 15));
+  EXPECT_EQ(geometry->getComputeBoundingBoxCallback(), nullptr) << "what a file would keep";
+  geometry->dirtyBound();
+  EXPECT_EQ(geometry->getBoundingBox().xMin(), -1);
 }
 
 TEST(MakeProgram, GivesTheSameObjectForTheSameTextWhileItIsHeld) {

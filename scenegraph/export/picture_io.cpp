@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <csetjmp>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "scenegraph/export/replace_file.h"
@@ -27,30 +29,65 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
+constexpr const char* kCancelled = "cancelled";
+constexpr int kRowsATurn = 64;  // between two reports
+
+/// Whether to stop, asked once for some rows.
+bool isGivenUp(const WriteProgress& progress, int rows_done, int rows) {
+  return progress && rows_done % kRowsATurn == 0 && !progress(static_cast<double>(rows_done) / rows);
+}
+
 /// What libpng is handed.
 struct Pixels {
   int width = 0;
   int height = 0;
   bool has_alpha = false;
-  const std::vector<std::uint8_t>& bytes;
+  std::function<const std::uint8_t*(int)> row;
 };
 
-std::expected<void, std::string> writePngFile(const Pixels& picture, const std::filesystem::path& path) {
+/// libpng comes back from its errors with a jump, over which nothing may need to be destroyed.
+const char* writePngRows(png_structp writer, png_infop info, std::FILE* file, const Pixels& picture,
+                         const WriteProgress& progress) {
+  if (setjmp(png_jmpbuf(writer)) != 0) {  // NOLINT(cert-err52-cpp): it is libpng's way
+    return "libpng";
+  }
+  png_init_io(writer, file);
+  png_set_IHDR(writer, info, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height), 8,
+               picture.has_alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
+  png_set_sRGB(writer, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_write_info(writer, info);
+  for (int y = 0; y < picture.height; ++y) {
+    if (isGivenUp(progress, y, picture.height)) {
+      return kCancelled;
+    }
+    png_write_row(writer, picture.row(y));
+  }
+  png_write_end(writer, info);
+  return nullptr;
+}
+
+std::expected<void, std::string> writePngFile(const Pixels& picture, const std::filesystem::path& path,
+                                              const WriteProgress& progress) {
   errno = 0;
   File file{std::fopen(path.c_str(), "wb")};
   if (file == nullptr) {
     return std::unexpected(lastSystemError());
   }
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(picture.width);
-  image.height = static_cast<png_uint_32>(picture.height);
-  // 8-bit components are sRGB by libpng's definition, and marked so.
-  image.format = picture.has_alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  std::string message;
+  const auto keep = [](png_structp writer, png_const_charp text) {
+    *static_cast<std::string*>(png_get_error_ptr(writer)) = text;
+    png_longjmp(writer, 1);
+  };
+  png_structp writer = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, keep, [](png_structp, auto) {});
+  png_infop info = writer == nullptr ? nullptr : png_create_info_struct(writer);
   std::expected<void, std::string> result;
-  if (png_image_write_to_stdio(&image, file.get(), 0, picture.bytes.data(), 0, nullptr) == 0) {
-    result = std::unexpected(std::string(image.message) + " (" + lastSystemError() + ")");
+  if (info == nullptr) {
+    result = std::unexpected("no memory for libpng");
+  } else if (const char* const failure = writePngRows(writer, info, file.get(), picture, progress)) {
+    result = std::unexpected(failure == kCancelled ? kCancelled : message + " (" + lastSystemError() + ")");
   }
+  png_destroy_write_struct(&writer, &info);
   // Bytes may still be on their way: a full disk shows when they are flushed.
   if (result && std::fclose(file.release()) != 0) {
     result = std::unexpected(lastSystemError());
@@ -58,7 +95,8 @@ std::expected<void, std::string> writePngFile(const Pixels& picture, const std::
   return result;
 }
 
-std::expected<void, std::string> writeExrFile(const Picture& picture, const std::filesystem::path& path) {
+std::expected<void, std::string> writeExrFile(const Picture& picture, const std::filesystem::path& path,
+                                              const WriteProgress& progress) {
   const auto width = static_cast<std::size_t>(picture.width);
   Imf::Header header(picture.width, picture.height);
   header.compression() = Imf::ZIP_COMPRESSION;
@@ -93,55 +131,84 @@ std::expected<void, std::string> writeExrFile(const Picture& picture, const std:
   try {
     Imf::OutputFile file(path.c_str(), header);
     file.setFrameBuffer(buffer);
-    file.writePixels(picture.height);
+    for (int y = 0; y < picture.height; y += kRowsATurn) {
+      if (isGivenUp(progress, y, picture.height)) {
+        return std::unexpected(kCancelled);
+      }
+      file.writePixels(std::min(kRowsATurn, picture.height - y));
+    }
   } catch (const std::exception& error) {
     return std::unexpected(errno != 0 ? lastSystemError() : std::string(error.what()));
   }
   return {};
 }
 
+/// 4 floats a pixel to 3 bytes.
+void toRgb(std::span<const float> rgba, std::span<std::uint8_t> bytes) {
+  for (std::size_t i = 0; i < rgba.size() / 4; ++i) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      bytes[i * 3 + channel] = srgbByteFromLinear(rgba[i * 4 + channel]);
+    }
+  }
+}
+
+/// 4 floats a pixel, premultiplied, to 4 bytes that are not.
+void toRgba(std::span<const float> rgba, std::span<std::uint8_t> bytes) {
+  for (std::size_t i = 0; i + 3 < bytes.size(); i += 4) {
+    const float alpha = std::clamp(rgba[i + 3], 0.0F, 1.0F);
+    for (std::size_t c = i; c < i + 3; ++c) {
+      bytes[c] = alpha > 0.0F ? srgbByteFromLinear(rgba[c] / alpha) : std::uint8_t{0};
+    }
+    bytes[i + 3] = static_cast<std::uint8_t>(std::lround(alpha * 255.0F));
+  }
+}
+
+std::expected<void, Status> writePixels(const Pixels& pixels, const std::filesystem::path& path,
+                                        const WriteProgress& progress) {
+  return replaceFile(path, [&](const std::filesystem::path& beside) { return writePngFile(pixels, beside, progress); });
+}
+
 }  // namespace
 
 BytePicture toBytes(const Picture& picture) {
   BytePicture bytes{.width = picture.width, .height = picture.height, .rgb = {}};
-  const std::size_t pixels = picture.rgba.size() / 4;
-  bytes.rgb.resize(pixels * 3);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      bytes.rgb[i * 3 + channel] = srgbByteFromLinear(picture.rgba[i * 4 + channel]);
-    }
-  }
+  bytes.rgb.resize(picture.rgba.size() / 4 * 3);
+  toRgb(picture.rgba, bytes.rgb);
   return bytes;
 }
 
 std::vector<std::uint8_t> toRgbaBytes(const Picture& picture) {
   std::vector<std::uint8_t> bytes(picture.rgba.size());
-  for (std::size_t i = 0; i + 3 < bytes.size(); i += 4) {
-    const float alpha = std::clamp(picture.rgba[i + 3], 0.0F, 1.0F);
-    for (std::size_t c = i; c < i + 3; ++c) {
-      bytes[c] = alpha > 0.0F ? srgbByteFromLinear(picture.rgba[c] / alpha) : std::uint8_t{0};
-    }
-    bytes[i + 3] = static_cast<std::uint8_t>(std::lround(alpha * 255.0F));
-  }
+  toRgba(picture.rgba, bytes);
   return bytes;
 }
 
-std::expected<void, Status> writePng(const BytePicture& picture, const std::filesystem::path& path) {
-  const Pixels pixels{.width = picture.width, .height = picture.height, .bytes = picture.rgb};
-  return replaceFile(path, [&](const std::filesystem::path& beside) { return writePngFile(pixels, beside); });
+std::expected<void, Status> writePng(const BytePicture& picture, const std::filesystem::path& path,
+                                     const WriteProgress& progress) {
+  const std::size_t stride = std::size_t{3} * static_cast<std::size_t>(picture.width);
+  return writePixels({.width = picture.width,
+                      .height = picture.height,
+                      .row = [&](int y) { return &picture.rgb[stride * static_cast<std::size_t>(y)]; }},
+                     path, progress);
 }
 
-std::expected<void, Status> writePng(const Picture& picture, const std::filesystem::path& path) {
-  if (!picture.has_alpha) {
-    return writePng(toBytes(picture), path);
-  }
-  const std::vector<std::uint8_t> bytes = toRgbaBytes(picture);
-  const Pixels pixels{.width = picture.width, .height = picture.height, .has_alpha = true, .bytes = bytes};
-  return replaceFile(path, [&](const std::filesystem::path& beside) { return writePngFile(pixels, beside); });
+std::expected<void, Status> writePng(const Picture& picture, const std::filesystem::path& path,
+                                     const WriteProgress& progress) {
+  const auto width = static_cast<std::size_t>(picture.width);
+  std::vector<std::uint8_t> bytes((picture.has_alpha ? 4 : 3) * width);
+  const auto row = [&](int y) -> const std::uint8_t* {
+    const auto values = std::span(picture.rgba).subspan(4 * width * static_cast<std::size_t>(y), 4 * width);
+    picture.has_alpha ? toRgba(values, bytes) : toRgb(values, bytes);
+    return bytes.data();
+  };
+  return writePixels({.width = picture.width, .height = picture.height, .has_alpha = picture.has_alpha, .row = row},
+                     path, progress);
 }
 
-std::expected<void, Status> writeExr(const Picture& picture, const std::filesystem::path& path) {
-  return replaceFile(path, [&](const std::filesystem::path& beside) { return writeExrFile(picture, beside); });
+std::expected<void, Status> writeExr(const Picture& picture, const std::filesystem::path& path,
+                                     const WriteProgress& progress) {
+  return replaceFile(path,
+                     [&](const std::filesystem::path& beside) { return writeExrFile(picture, beside, progress); });
 }
 
 std::expected<BytePicture, Status> readPng(const std::filesystem::path& path) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <osg/Node>
 #include <osg/ref_ptr>
 #include <utility>
@@ -13,8 +12,6 @@
 
 namespace stillframe::scenegraph {
 namespace {
-
-constexpr int kRepeats = 3;
 
 /// The nodes of one layer, and what their masks were.
 class Switch {
@@ -39,40 +36,49 @@ class Switch {
   std::vector<std::pair<osg::ref_ptr<osg::Node>, osg::Node::NodeMask>> masks_;
 };
 
-double shortestMs(const std::function<void()>& draw) {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kRepeats; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    draw();
-    glFinish();
-    shortest = std::min(shortest, millisecondsSince(start));
-  }
-  return shortest;
-}
-
 }  // namespace
 
-std::vector<std::optional<double>> measureDrawTimes(const Scene& scene, const std::function<void()>& draw) {
+DrawTimes::DrawTimes(const Scene& scene)
+    : scene_(scene), revision_(scene.settingsRevision()), shortest_ms_(scene.layers().size()) {}
+
+bool DrawTimes::isValid() const {
+  return scene_.layers().size() == shortest_ms_.size() && scene_.settingsRevision() == revision_;
+}
+
+void DrawTimes::step(const std::function<void()>& draw) {
+  if (isDone() || !isValid()) {
+    return;
+  }
   std::vector<Switch> switches;
-  for (const auto& slot : scene.layers()) {
+  for (const auto& slot : scene_.layers()) {
     switches.emplace_back(*slot->layer);
     switches.back().set(false);
   }
-  const double without_layers = shortestMs(draw);
-  std::vector<std::optional<double>> times;
-  for (const Switch& one : switches) {
-    if (one.isEmpty()) {
-      times.emplace_back();
-      continue;
+  const std::size_t turn = frames_ / kRepeats;  // 0: none of them
+  const bool is_first = frames_ % kRepeats == 0;
+  const bool shows_nothing = turn > 0 && switches[turn - 1].isEmpty();
+  if (shows_nothing) {
+    frames_ += kRepeats;
+  } else {
+    if (turn > 0) {
+      switches[turn - 1].set(true);
     }
-    one.set(true);
-    times.emplace_back(std::max(0.0, shortestMs(draw) - without_layers));
-    one.set(false);
+    const auto start = std::chrono::steady_clock::now();
+    draw();
+    glFinish();
+    const double ms = millisecondsSince(start);
+    if (turn == 0) {
+      without_layers_ms_ = is_first ? ms : std::min(ms, without_layers_ms_);
+    } else {
+      std::optional<double>& shortest = shortest_ms_[turn - 1];
+      const double own_ms = std::max(0.0, ms - without_layers_ms_);
+      shortest = is_first ? own_ms : std::min(own_ms, shortest.value_or(own_ms));
+    }
+    ++frames_;
   }
   for (const Switch& one : switches) {
     one.set(true);
   }
-  return times;
 }
 
 }  // namespace stillframe::scenegraph

@@ -12,11 +12,12 @@ namespace {
 
 /// Texels of level 0, `channels` values each.
 template <typename T>
-std::vector<T> read(GLuint texture, GLenum format, GLenum type, std::size_t channels, int width_px, int height_px) {
-  std::vector<T> values(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * channels);
+std::vector<T> read(GLuint texture, GLenum format, GLenum type, std::size_t channels, const Rows& rows) {
+  std::vector<T> values(static_cast<std::size_t>(rows.width_px) * static_cast<std::size_t>(rows.count) * channels);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glPixelStorei(GL_PACK_ALIGNMENT, 2);
-  glGetTextureImage(texture, 0, format, type, static_cast<GLsizei>(values.size() * sizeof(T)), values.data());
+  glGetTextureSubImage(texture, 0, 0, rows.first, 0, rows.width_px, rows.count, 1, format, type,
+                       static_cast<GLsizei>(values.size() * sizeof(T)), values.data());
   return values;
 }
 
@@ -96,21 +97,21 @@ std::uint32_t readNumber(std::uint32_t texture) {
   return number;
 }
 
-std::vector<float> readColor(std::uint32_t texture, int width_px, int height_px) {
+std::vector<float> readColor(std::uint32_t texture, const Rows& rows) {
   GLint format = 0;
   glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
   if (format != GL_RGBA16F) {
-    return read<float>(texture, GL_RGBA, GL_FLOAT, 4, width_px, height_px);
+    return read<float>(texture, GL_RGBA, GL_FLOAT, 4, rows);
   }
   // As the halves they are: the driver takes longer to make floats of them.
-  const auto halves = read<std::uint16_t>(texture, GL_RGBA, GL_HALF_FLOAT, 4, width_px, height_px);
+  const auto halves = read<std::uint16_t>(texture, GL_RGBA, GL_HALF_FLOAT, 4, rows);
   std::vector<float> values(halves.size());
   std::ranges::transform(halves, values.begin(), floatFromHalf);
   return values;
 }
 
-std::vector<float> readDepth(std::uint32_t texture, int width_px, int height_px) {
-  return read<float>(texture, GL_DEPTH_COMPONENT, GL_FLOAT, 1, width_px, height_px);
+std::vector<float> readDepth(std::uint32_t texture, const Rows& rows) {
+  return read<float>(texture, GL_DEPTH_COMPONENT, GL_FLOAT, 1, rows);
 }
 
 }  // namespace stillframe::scenegraph::gl

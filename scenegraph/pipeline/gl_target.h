@@ -32,9 +32,15 @@ void finishImages();
 void finishTargets();
 /// The first number of a texture of one; waits for the GPU.
 [[nodiscard]] std::uint32_t readNumber(std::uint32_t texture);
-/// Texels of level 0 of a colour texture as RGBA, bottom row first; waits for the GPU.
-[[nodiscard]] std::vector<float> readColor(std::uint32_t texture, int width_px, int height_px);
+/// Whole rows of a texture's level 0.
+struct Rows {
+  int width_px = 0;  ///< of the texture
+  int first = 0;     ///< from the bottom
+  int count = 0;
+};
+/// Rows of a colour texture as RGBA, bottom row first; waits for the GPU.
+[[nodiscard]] std::vector<float> readColor(std::uint32_t texture, const Rows& rows);
 /// The same of a 32-bit float depth texture, one float a pixel.
-[[nodiscard]] std::vector<float> readDepth(std::uint32_t texture, int width_px, int height_px);
+[[nodiscard]] std::vector<float> readDepth(std::uint32_t texture, const Rows& rows);
 
 }  // namespace stillframe::scenegraph::gl

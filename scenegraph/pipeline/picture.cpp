@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "scenegraph/srgb.h"
 
@@ -31,16 +32,18 @@ class MetresFromDepth {
   double zz_, zw_, wz_, ww_;
 };
 
-/// Top row first, in place.
-void flipRows(std::vector<float>& values, std::size_t rows) {
+constexpr std::size_t kPixelsAStep = std::size_t{1} << 19;
+
+/// Appends rows of one length, the last one first.
+void appendFlipped(const std::vector<float>& values, std::size_t rows, std::vector<float>& to) {
   const auto stride = static_cast<std::ptrdiff_t>(values.size() / rows);
-  for (auto low = values.begin(), high = values.end() - stride; low < high; low += stride, high -= stride) {
-    std::swap_ranges(low, low + stride, high);
+  for (auto row = values.end(); row != values.begin(); row -= stride) {
+    to.insert(to.end(), row - stride, row);
   }
 }
 
 /// `rgba` on black and `on_white` become premultiplied colours over `background`, itself premultiplied by its alpha.
-void findAlpha(std::vector<float>& rgba, const std::vector<float>& on_white, const Color& background) {
+void findAlpha(std::span<float> rgba, const std::vector<float>& on_white, const Color& background) {
   const std::array<float, 3> behind{linearFromSrgb(background.r), linearFromSrgb(background.g),
                                     linearFromSrgb(background.b)};
   const float behind_alpha = std::clamp(background.a, 0.0F, 1.0F);
@@ -93,30 +96,71 @@ std::expected<void, Status> drawPicture(ViewPipeline& pipeline, const RenderOpti
   return pipeline.renderLinear(options.width, options.height);
 }
 
-std::expected<Picture, Status> readPicture(ViewPipeline& pipeline, const RenderOptions& options) {
-  LinearFrame frame = pipeline.readLinear();
-  const bool has_alpha = options.background.a < 1.0F;
-  if (has_alpha) {
-    pipeline.setBackground(kWhite);
-    if (const auto drawn = pipeline.renderLinear(options.width, options.height); !drawn) {
+PictureReader::PictureReader(ViewPipeline& pipeline, RenderOptions options)
+    : pipeline_(pipeline), options_(std::move(options)) {
+  const bool has_alpha = options_.background.a < 1.0F;
+  const auto width = static_cast<std::size_t>(options_.width);
+  const std::size_t pixels = width * static_cast<std::size_t>(options_.height);
+  rows_ = static_cast<int>(std::max<std::size_t>(1, kPixelsAStep / width));
+  bands_ = (options_.height + rows_ - 1) / rows_;
+  steps_ = has_alpha ? 2 * bands_ + 1 : bands_;
+  picture_ = {.width = options_.width, .height = options_.height, .rgba = {}, .depth_m = {}, .has_alpha = has_alpha};
+  picture_.rgba.reserve(4 * pixels);
+  picture_.depth_m.reserve(pixels);
+}
+
+std::expected<void, Status> PictureReader::step() {
+  if (isDone()) {
+    return {};
+  }
+  if (steps_done_ < bands_) {
+    readBand(steps_done_);
+  } else if (steps_done_ > bands_) {
+    readBandOnWhite(steps_done_ - bands_ - 1);
+  } else {
+    pipeline_.setBackground(kWhite);
+    if (const auto drawn = pipeline_.renderLinear(options_.width, options_.height); !drawn) {
       return std::unexpected(drawn.error());
     }
-    findAlpha(frame.rgba, pipeline.readLinear().rgba, options.background);
-  } else {
-    for (std::size_t i = 3; i < frame.rgba.size(); i += 4) {
-      frame.rgba[i] = 1.0F;  // in the target it is the share that is data
+  }
+  ++steps_done_;
+  return {};
+}
+
+void PictureReader::readBand(int band) {
+  const int rows = std::min(rows_, options_.height - band * rows_);
+  const int from_below = options_.height - band * rows_ - rows;
+  const auto count = static_cast<std::size_t>(rows);
+  const std::size_t first = picture_.rgba.size();
+  appendFlipped(pipeline_.readColor(from_below, rows), count, picture_.rgba);
+  if (!picture_.has_alpha) {
+    for (std::size_t i = first + 3; i < picture_.rgba.size(); i += 4) {
+      picture_.rgba[i] = 1.0F;  // in the target it is the share that is data
     }
   }
-  Picture picture{.width = options.width,
-                  .height = options.height,
-                  .rgba = std::move(frame.rgba),
-                  .depth_m = std::move(frame.depth),
-                  .has_alpha = has_alpha};
-  const auto rows = static_cast<std::size_t>(options.height);
-  flipRows(picture.rgba, rows);
-  flipRows(picture.depth_m, rows);
-  std::ranges::transform(picture.depth_m, picture.depth_m.begin(), MetresFromDepth{pipeline.projectionMatrix()});
-  return picture;
+  std::vector<float> depth = pipeline_.readDepth(from_below, rows);
+  std::ranges::transform(depth, depth.begin(), MetresFromDepth{pipeline_.projectionMatrix()});
+  appendFlipped(depth, count, picture_.depth_m);
+}
+
+void PictureReader::readBandOnWhite(int band) {
+  const int rows = std::min(rows_, options_.height - band * rows_);
+  std::vector<float> on_white;
+  appendFlipped(pipeline_.readColor(options_.height - band * rows_ - rows, rows), static_cast<std::size_t>(rows),
+                on_white);
+  const std::size_t row_floats = std::size_t{4} * static_cast<std::size_t>(options_.width);
+  findAlpha(std::span(picture_.rgba).subspan(row_floats * static_cast<std::size_t>(band * rows_), on_white.size()),
+            on_white, options_.background);
+}
+
+std::expected<Picture, Status> readPicture(ViewPipeline& pipeline, const RenderOptions& options) {
+  PictureReader reader(pipeline, options);
+  while (!reader.isDone()) {
+    if (const auto done = reader.step(); !done) {
+      return std::unexpected(done.error());
+    }
+  }
+  return reader.take();
 }
 
 }  // namespace stillframe::scenegraph

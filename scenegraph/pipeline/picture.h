@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <expected>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenegraph/pipeline/view_pipeline.h"
@@ -49,5 +50,33 @@ std::expected<void, Status> drawPicture(ViewPipeline& pipeline, const RenderOpti
 /// Reads it back. Where the background is not opaque it is drawn again, on white: how much of a pixel hides the
 /// background is what the two differ by, whatever made it so: blending, edges between samples, or an effect.
 [[nodiscard]] std::expected<Picture, Status> readPicture(ViewPipeline& pipeline, const RenderOptions& options);
+
+/// readPicture() in steps of half a million pixels, some ten milliseconds each, for who must answer meanwhile. Between
+/// them nobody else may draw with `pipeline`, which must outlive the reader. With the context current.
+class PictureReader {
+ public:
+  /// Of what drawPicture() has drawn by these options.
+  PictureReader(ViewPipeline& pipeline, RenderOptions options);
+
+  /// Does nothing more once isDone().
+  std::expected<void, Status> step();
+  [[nodiscard]] bool isDone() const noexcept { return steps_done_ == steps_; }
+  /// Of the steps, 0 to 1.
+  [[nodiscard]] double share() const noexcept { return static_cast<double>(steps_done_) / steps_; }
+  /// The picture of all rows that have been read: the whole one when isDone().
+  [[nodiscard]] Picture take() { return std::move(picture_); }
+
+ private:
+  void readBand(int band);
+  void readBandOnWhite(int band);
+
+  ViewPipeline& pipeline_;
+  RenderOptions options_;
+  Picture picture_;
+  int rows_ = 1;   // of a band
+  int bands_ = 1;  // from the top
+  int steps_ = 1;
+  int steps_done_ = 0;
+};
 
 }  // namespace stillframe::scenegraph

@@ -74,6 +74,9 @@ struct ViewPipeline::Impl {
   void drawFrame();
   [[nodiscard]] bool isPaced() const { return is_software && std::isfinite(point_limits.budget_ms); }
   [[nodiscard]] GLuint textureId(const std::string& target) const;
+  [[nodiscard]] bool hasRows(int first, int rows) const {
+    return stages && first >= 0 && rows > 0 && rows <= height_px - first;
+  }
   std::expected<void, Status> checkTargets() const;
   std::expected<void, Status> draw(std::uint32_t output_fbo, int width, int height, bool present);
 };
@@ -326,12 +329,15 @@ std::expected<void, Status> ViewPipeline::renderLinear(int width_px, int height_
   return impl_->draw(0, width_px, height_px, false);
 }
 
-LinearFrame ViewPipeline::readLinear() const {
-  if (!impl_->stages) {
-    return {};
-  }
-  return {.rgba = gl::readColor(impl_->textureId(impl_->stages->lastTarget()), impl_->width_px, impl_->height_px),
-          .depth = gl::readDepth(impl_->textureId("depth"), impl_->width_px, impl_->height_px)};
+std::vector<float> ViewPipeline::readColor(int first_row, int rows) const {
+  return impl_->hasRows(first_row, rows)
+             ? gl::readColor(impl_->textureId(impl_->stages->lastTarget()), {impl_->width_px, first_row, rows})
+             : std::vector<float>{};
+}
+
+std::vector<float> ViewPipeline::readDepth(int first_row, int rows) const {
+  return impl_->hasRows(first_row, rows) ? gl::readDepth(impl_->textureId("depth"), {impl_->width_px, first_row, rows})
+                                         : std::vector<float>{};
 }
 
 const std::vector<std::string>& ViewPipeline::passes() const noexcept { return impl_->passes; }

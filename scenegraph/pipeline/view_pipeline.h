@@ -19,12 +19,6 @@
 
 namespace stillframe::scenegraph {
 
-/// A frame read back, bottom row first, as OpenGL has it.
-struct LinearFrame {
-  std::vector<float> rgba;   ///< scene-linear, 4 a pixel, of the last pass before present
-  std::vector<float> depth;  ///< reverse-Z of the scene pass, 0 where nothing was drawn
-};
-
 /// Who draws opaque points.
 enum class PointWay : std::uint8_t { Auto, OpenGl, Cpu, Compute };
 
@@ -66,10 +60,13 @@ class ViewPipeline {
   /// Errors: "TargetIncomplete", the driver cannot make targets of this size; "UnknownInput", a pass reads what nobody
   /// writes.
   std::expected<void, Status> render(std::uint32_t output_fbo, int width_px, int height_px);
-  /// The same without present, for readLinear(): what a picture file holds is not rounded to bytes on the way.
+  /// The same without present, for readColor(): what a picture file holds is not rounded to bytes on the way.
   std::expected<void, Status> renderLinear(int width_px, int height_px);
-  /// The pixels of the last render; waits for the GPU. Empty before the first.
-  [[nodiscard]] LinearFrame readLinear() const;
+  /// Rows of the last render, counted from the bottom, bottom row first, as OpenGL has them; waits for the GPU.
+  /// Scene-linear, 4 a pixel, of the last pass before present. Empty before the first render and outside of it.
+  [[nodiscard]] std::vector<float> readColor(int first_row, int rows) const;
+  /// The same of the scene pass's reverse-Z depth, one a pixel, 0 where nothing was drawn.
+  [[nodiscard]] std::vector<float> readDepth(int first_row, int rows) const;
 
   /// Names of what the last render ran, in order: "scene", post passes, "present".
   [[nodiscard]] const std::vector<std::string>& passes() const noexcept;

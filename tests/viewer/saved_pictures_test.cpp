@@ -11,11 +11,14 @@
 #include <QStatusBar>
 #include <QTemporaryDir>
 #include <QTimer>
+#include <QToolButton>
 #include <algorithm>
 
 #include "tests/viewer/open_window.h"
 #include "tests/viewer/viewer_support.h"
 #include "viewer/pick/view_picks.h"
+#include "viewer/time/time_bar.h"
+#include "viewer/view/view_panel.h"
 #include "viewer/window/message_bar.h"
 #include "viewer/window/picture_dialog.h"
 #include "viewer/window/picture_saver.h"
@@ -110,6 +113,97 @@ TEST_F(SavedPictures, ThatAPictureIsDrawnIsShownBeforeItIsDrawn) {
   saver.saveView(view(), {.width_px = 0, .height_px = 1}, folder.filePath("none.png"));
   ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
   EXPECT_FALSE(bars.back()->isVisible());
+}
+
+TEST_F(SavedPictures, AHugePictureIsTakenInStepsAndTheViewStandsStillMeanwhile) {
+  open({.files = {"robot.mcap"}, .time = "+1"});
+  for (const bool is_transparent : {false, true}) {
+    const PictureRequest request{.width_px = 4000, .height_px = 1000, .is_transparent = is_transparent};
+    const auto whole = view().takePicture(request);
+    ASSERT_TRUE(whole);
+    settle();
+    ASSERT_TRUE(view().beginPicture(request));
+    EXPECT_EQ(view().beginPicture(request).error().code, "NotDrawn") << "one at a time";
+    const auto frames = view().framesDrawn();
+    std::vector<double> shares;
+    while (shares.empty() || shares.back() < 1.0) {
+      const auto share = view().continuePicture();
+      ASSERT_TRUE(share);
+      shares.push_back(*share);
+      view().setTime(tf::TimePoint{9'000'000'000});
+      view().update();
+      QApplication::processEvents();
+    }
+    EXPECT_GT(shares.size(), 8U);
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
+    EXPECT_EQ(view().framesDrawn(), frames);
+    EXPECT_FALSE(view().pick({10.0, 10.0}));
+    const scenegraph::Picture stepped = view().endPicture();
+    EXPECT_TRUE(stepped.rgba == whole->rgba);
+    EXPECT_TRUE(stepped.depth_m == whole->depth_m);
+    ASSERT_TRUE(waitFor([&] { return view().framesDrawn() > frames; })) << "the view goes on";
+    EXPECT_EQ(view().scene()->time(), tf::TimePoint{9'000'000'000});
+    view().setTime(window_->timeBar().time());
+    settle();
+  }
+  EXPECT_EQ(view().continuePicture().error().code, "NotDrawn");
+  ASSERT_TRUE(view().beginPicture({.width_px = 64, .height_px = 64}));
+  const auto executor = scenegraph::makeThreadPoolExecutor(1);
+  window_->views().front()->setDataset(nullptr, *executor, {});
+  EXPECT_EQ(view().continuePicture().error().code, "NotDrawn");
+}
+
+TEST_F(SavedPictures, AHugePictureTellsHowFarItIsAndCanBeGivenUp) {
+  open({.files = {"robot.mcap"}, .time = "+1"});
+  const QTemporaryDir folder;
+  const auto executor = scenegraph::makeThreadPoolExecutor(1);
+  PictureSaver saver(*executor);
+  QMenu menu;
+  addPictureActions(menu, *window_, saver, [this]() -> ViewPanel& { return *window_->views().front(); });
+  auto* const bar = window_->findChildren<QProgressBar*>(QStringLiteral("pictureProgress")).back();
+  auto* const cancel = window_->findChildren<QToolButton*>(QStringLiteral("cancelPicture")).back();
+  std::vector<double> shares;
+  int most = 0;
+  QObject::connect(&saver, &PictureSaver::progressed, window_.get(), [&](double share) {
+    shares.push_back(share);
+    most = std::max(most, bar->value());
+  });
+  const QString file = folder.filePath("huge.png");
+  saver.saveView(view(), {.width_px = 3000, .height_px = 1000}, file);
+  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  EXPECT_TRUE(QFileInfo::exists(file));
+  EXPECT_GT(shares.size(), 12U) << "of drawing and of writing";
+  EXPECT_GT(most, 900);
+  EXPECT_FALSE(cancel->isVisible());
+
+  // Given up while it is drawn, and while it is written.
+  int given_up = 0;
+  QObject::connect(&saver, &PictureSaver::cancelled, window_.get(), [&] { ++given_up; });
+  for (const bool is_written : {false, true}) {
+    const QString never = folder.filePath("never.png");
+    saver.saveView(view(), {.width_px = 3000, .height_px = 1000}, never);
+    saver.saveView(view(), {.width_px = 30, .height_px = 10}, never);
+    EXPECT_TRUE(cancel->isVisible());
+    const auto give_up = [&] {
+      cancel->click();
+      return true;
+    };
+    QMetaObject::Connection once;
+    if (is_written) {
+      once = QObject::connect(&saver, &PictureSaver::drawn, window_.get(), give_up);
+    } else {
+      ASSERT_TRUE(waitFor([&, count = shares.size()] { return shares.size() > count + 2; }));
+      give_up();
+    }
+    ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+    QObject::disconnect(once);
+    EXPECT_EQ(given_up, is_written ? 4 : 2);
+    EXPECT_FALSE(QFileInfo::exists(never));
+    EXPECT_FALSE(cancel->isVisible());
+    EXPECT_FALSE(bar->isVisible());
+  }
+  settle();
+  EXPECT_GT(test::drawnPixels(view().grabFramebuffer()), 500) << "the view goes on";
 }
 
 TEST_F(SavedPictures, APictureOfTheViewHasItsLegendAndWhatIsMeasured) {

@@ -205,9 +205,16 @@ TEST_F(WidgetCameraTest, QuestionMarkShowsTheHelpAndEscapeHidesIt) {
   auto* help = widget_.findChild<HelpOverlay*>();
   ASSERT_NE(help, nullptr);
   EXPECT_FALSE(help->isShown());
+  widget_.resize(900, 700);
   key(Qt::Key_Question, Qt::ShiftModifier);
   EXPECT_TRUE(help->isShown());
   EXPECT_TRUE(help->text().contains(QStringLiteral("Home")));
+  const QSize wide = help->size();
+  widget_.resize(wide.width() - 100, widget_.height());
+  test::settle();
+  EXPECT_EQ(help->x(), 0);
+  EXPECT_EQ(help->width(), widget_.width()) << "nothing is cut off";
+  EXPECT_GT(help->height(), wide.height());
   key(Qt::Key_Escape);
   EXPECT_FALSE(help->isShown());
 }

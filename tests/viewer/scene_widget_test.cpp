@@ -197,6 +197,18 @@ TEST_F(SceneWidgetTest, ResizingToNothingAndBackKeepsDrawing) {
   EXPECT_GT(drawn(), 500);
 }
 
+TEST_F(SceneWidgetTest, DrawsOneFrameForSeveralSizes) {
+  show();
+  const auto frames = widget_->framesDrawn();
+  for (const int width : {420, 440, 460}) {
+    widget_->resize(width, 300);
+  }
+  EXPECT_EQ(widget_->framesDrawn(), frames) << "within a resize nothing is drawn";
+  settle();
+  EXPECT_GT(widget_->framesDrawn(), frames);
+  EXPECT_GT(drawn(), 500);
+}
+
 TEST_F(SceneWidgetTest, HidingAndShowingKeepsDrawingAndTakesUpTheTime) {
   show();
   widget_->hide();

@@ -111,8 +111,8 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
     legend_->refresh(view_->scene());
     refreshFrames();
   });
-  connect(layers_, &LayerPanel::drawTimesRequested, this,
-          [this] { layers_->tree().setDrawTimes(view_->measureDrawTimes()); });
+  connect(layers_, &LayerPanel::drawTimesRequested, view_, &SceneWidget::measureDrawTimes);
+  connect(view_, &SceneWidget::drawTimesMeasured, &layers_->tree(), &LayerTree::setDrawTimes);
   connectHistory();
 }
 
@@ -130,6 +130,8 @@ QToolButton* ViewPanel::addButton(QWidget& bar, const QString& name, const QIcon
   bar.layout()->addWidget(button);
   return button;
 }
+
+int ViewPanel::panelsWidth() const { return splitter_->widget(0)->isVisible() ? splitter_->sizes().constFirst() : 0; }
 
 void ViewPanel::setArrangeable(bool arrangeable) {
   for (QWidget* const widget : arranging_) {

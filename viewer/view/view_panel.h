@@ -60,6 +60,9 @@ class ViewPanel : public QWidget {
   /// first.
   void setArrangeable(bool arrangeable);
 
+  /// Of the layers and effects beside the picture, where they are shown.
+  [[nodiscard]] int panelsWidth() const;
+
   /// All that makes the view what it is: what a copy of it takes over, and what is saved.
   [[nodiscard]] scenegraph::ViewLayout layout() const;
   /// Takes that over. What needs topics or frames that are not there (yet) waits for them, and is saved again.

@@ -30,7 +30,13 @@ void HelpOverlay::setShown(bool shown) {
 }
 
 void HelpOverlay::place() {
-  adjustSize();
+  setWordWrap(false);
+  QSize size = sizeHint();
+  if (size.width() > parentWidget()->width()) {  // a narrow view: what the keys do is told in more lines
+    setWordWrap(true);
+    size = {parentWidget()->width(), heightForWidth(parentWidget()->width())};
+  }
+  resize(size);
   move(std::max(0, (parentWidget()->width() - width()) / 2), std::max(0, (parentWidget()->height() - height()) / 2));
 }
 

@@ -12,6 +12,7 @@
 #include "viewer/pick/view_picker.h"
 #include "viewer/widget/gl_format.h"
 #include "viewer/widget/help_overlay.h"
+#include "viewer/widget/picture_job.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -92,8 +93,8 @@ void SceneWidget::setFixedFrame(const std::optional<std::string>& frame) {
 }
 
 bool SceneWidget::applyTick() {
-  if (scene_ == nullptr || !isVisible()) {
-    return false;  // showEvent() asks again
+  if (scene_ == nullptr || !isVisible() || isLent()) {
+    return false;  // showEvent() and takeBack() ask again
   }
   bool is_changed = scene_->update(time_);
   is_changed = followTick() || is_changed;  // after the scene, so that camera and data are of one tick
@@ -117,7 +118,7 @@ void SceneWidget::setEffects(const scenegraph::ViewEffects& effects) {
     return;
   }
   effects_ = effects;
-  if (pipeline_ != nullptr) {
+  if (pipeline_ != nullptr && !isLent()) {
     pipeline_->setPostChain(effects_.chain());
   }
   update();
@@ -183,35 +184,27 @@ void SceneWidget::setPointWay(scenegraph::PointWay way) {
   update();
 }
 
-std::vector<std::optional<double>> SceneWidget::measureDrawTimes() {
-  if (scene_ == nullptr || pipeline_ == nullptr || !is_context_usable_) {
-    return {};
-  }
-  makeCurrent();
-  const QSizeF size_px = QSizeF(size()) * devicePixelRatioF();
-  pipeline_->setPointLimits({});
-  auto times = scenegraph::measureDrawTimes(
-      *scene_, [&] { (void)pipeline_->renderLinear(qRound(size_px.width()), qRound(size_px.height())); });
-  doneCurrent();
-  update();
-  return times;
-}
-
 double SceneWidget::pointShare() const {
   return pipeline_ != nullptr && pipeline_->pointProgress() ? pipeline_->pointProgress()->share : 1.0;
 }
 
 void SceneWidget::showProgress() {
   const double share = pointShare();
-  progress_label_->setVisible(share < 1.0);
-  if (share < 1.0) {
-    progress_label_->setText(tr("%1 % of the points, refining").arg(100.0 * share, 0, 'g', 2));
+  sayProgress(share < 1.0 ? tr("%1 % of the points, refining").arg(100.0 * share, 0, 'g', 2) : QString());
+}
+
+void SceneWidget::sayProgress(const QString& text) {
+  progress_label_->setVisible(!text.isEmpty());
+  if (!text.isEmpty()) {
+    progress_label_->setText(text);
     progress_label_->adjustSize();
     progress_label_->move(kProgressMargin, height() - progress_label_->height() - kProgressMargin);
   }
 }
 
 void SceneWidget::releaseGl() {
+  picture_.reset();
+  draw_times_.reset();
   if (!is_context_usable_) {
     return;
   }
@@ -228,6 +221,8 @@ void SceneWidget::releaseGl() {
 }
 
 void SceneWidget::dropPipeline() {
+  picture_.reset();
+  draw_times_.reset();
   if (pipeline_ == nullptr) {
     return;
   }

@@ -24,12 +24,17 @@
 
 class QLabel;
 
+namespace stillframe::scenegraph {
+class DrawTimes;
+}
+
 namespace stillframe::viewer {
 
 class HelpOverlay;
 class ViewPicker;
 class ViewPicks;
 struct PictureRequest;
+class PictureJob;
 
 /// The 3D view: one Scene, one camera, one pipeline in the widget's own context. GUI thread.
 ///
@@ -100,12 +105,19 @@ class SceneWidget : public QOpenGLWidget {
   /// A picture of what is shown, of any size, whole; blocks until it is drawn. "NotDrawn" before the first frame, and
   /// what scenegraph::checkPicture() refuses.
   [[nodiscard]] std::expected<scenegraph::Picture, scenegraph::Status> takePicture(const PictureRequest& request);
+  /// The same in steps, for who wants to answer meanwhile: begin, continue until the share that is done is 1, and take
+  /// it. Drawing is one step, reading it back is steps of some ten milliseconds. The view stands still as long.
+  [[nodiscard]] std::expected<void, scenegraph::Status> beginPicture(const PictureRequest& request);
+  /// "NotDrawn" when there is none any more: the view has lost its context, or has another recording.
+  [[nodiscard]] std::expected<double, scenegraph::Status> continuePicture();
+  /// What there is of it; the view goes on.
+  scenegraph::Picture endPicture();
 
   /// Share of the points that the last frame has drawn; below 1 the view goes on by itself until all are.
   [[nodiscard]] double pointShare() const;
-  /// Milliseconds that each layer takes to draw by itself, in the scene's order; empty before the first frame. Draws
-  /// the scene some times over, and blocks as long.
-  [[nodiscard]] std::vector<std::optional<double>> measureDrawTimes();
+  /// Measures what each layer takes to draw by itself, a frame an event: drawTimesMeasured() follows, unless the scene
+  /// changes meanwhile. The view stands still as long. Does nothing before the first frame.
+  void measureDrawTimes();
   [[nodiscard]] std::uint64_t framesDrawn() const noexcept { return frames_drawn_; }
   /// OpenGL debug messages so far, over all contexts.
   [[nodiscard]] std::size_t glMessages() const noexcept { return gl_messages_ + debug_log_.count(); }
@@ -135,12 +147,15 @@ class SceneWidget : public QOpenGLWidget {
   void sceneUpdated();
   void cameraChanged();
   void savedViewsChanged();
+  /// Milliseconds of each layer, in the scene's order; none of a layer that shows nothing.
+  void drawTimesMeasured(const std::vector<std::optional<double>>& times);
   /// Name of the frame whose origin is near the cursor, "" when none is.
   void frameHovered(const QString& frame);
 
  protected:
   void initializeGL() override;
   void paintGL() override;
+  void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void showEvent(QShowEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
@@ -155,6 +170,9 @@ class SceneWidget : public QOpenGLWidget {
  private:
   void releaseGl();
   void dropPipeline();
+  [[nodiscard]] bool isLent() const noexcept { return picture_ != nullptr || draw_times_ != nullptr; }
+  void takeBack();
+  void stepDrawTimes();
   void frameIfWanted();
   void onCameraMoved();
   bool followTick();
@@ -165,6 +183,7 @@ class SceneWidget : public QOpenGLWidget {
   [[nodiscard]] double now() const { return static_cast<double>(clock_.nsecsElapsed()) * 1e-9; }
   void showProblem(const QString& text);
   void showProgress();
+  void sayProgress(const QString& text);
   [[nodiscard]] double aspect() const;
 
   UpdateGate gate_;
@@ -172,6 +191,8 @@ class SceneWidget : public QOpenGLWidget {
   std::size_t gl_messages_ = 0, logged_messages_ = 0;  // of contexts that are gone; of debug_log_ that went to glLog
   std::unique_ptr<scenegraph::Scene> scene_;
   std::unique_ptr<scenegraph::ViewPipeline> pipeline_;
+  std::unique_ptr<PictureJob> picture_;                // that is being taken
+  std::unique_ptr<scenegraph::DrawTimes> draw_times_;  // that are being measured
   scenegraph::ViewCamera camera_;
   std::string camera_frame_;  // the fixed frame that camera_ counts in
   std::vector<scenegraph::SavedView> saved_views_;
@@ -188,7 +209,7 @@ class SceneWidget : public QOpenGLWidget {
   tf::TimePoint time_;
   bool wants_framing_ = true, has_framed_data_ = false, is_camera_touched_ = false;
   std::optional<scenegraph::ViewpointState> restored_;  // what restoreViewpoint() holds on to
-  bool is_context_usable_ = false;
+  bool is_context_usable_ = false, is_resizing_ = false;
   std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
   std::uint64_t frames_drawn_ = 0;
   QMetaObject::Connection context_watch_;

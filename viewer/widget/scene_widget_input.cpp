@@ -2,6 +2,7 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMouseEvent>
+#include <QScopedValueRollback>
 #include <QWheelEvent>
 
 #include "viewer/pick/hover_label.h"
@@ -17,11 +18,23 @@ constexpr double kWheelNotch = 120.0;  // eighths of a degree, as QWheelEvent co
 
 }  // namespace
 
+/// QOpenGLWidget paints within each resize, and once more when the window does: a splitter that settles in three steps
+/// would draw four frames for one that is seen.
 void SceneWidget::resizeEvent(QResizeEvent* event) {
-  QOpenGLWidget::resizeEvent(event);
+  {
+    const QScopedValueRollback resizing(is_resizing_, true);
+    QOpenGLWidget::resizeEvent(event);
+  }
+  update();
   message_->setGeometry(rect());
   if (help_->isShown()) {
     help_->place();
+  }
+}
+
+void SceneWidget::paintEvent(QPaintEvent* event) {
+  if (!is_resizing_ && !isLent()) {
+    QOpenGLWidget::paintEvent(event);
   }
 }
 

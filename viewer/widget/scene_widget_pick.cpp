@@ -14,7 +14,7 @@ std::expected<scenegraph::PickResult, scenegraph::PickError> SceneWidget::pick(Q
   const double x = std::floor(position.x() * ratio);
   const double y = std::floor(position.y() * ratio);
   constexpr double kMost = std::numeric_limits<int>::max() / 2;
-  if (scene_ == nullptr || pipeline_ == nullptr || !is_context_usable_ ||
+  if (scene_ == nullptr || pipeline_ == nullptr || !is_context_usable_ || isLent() ||
       !(std::abs(x) < kMost && std::abs(y) < kMost)) {
     return std::unexpected(scenegraph::PickError::NothingThere);
   }

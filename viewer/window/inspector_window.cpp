@@ -26,6 +26,7 @@
 #include "viewer/window/message_bar.h"
 #include "viewer/window/picture_dialog.h"
 #include "viewer/window/picture_saver.h"
+#include "viewer/window/set_later.h"
 #include "viewer/window/theme.h"
 #include "viewer/window/view_window.h"
 
@@ -302,7 +303,7 @@ void InspectorWindow::takeRange() {
 }
 
 void InspectorWindow::onProgress(double fraction) {
-  progress_->setValue(static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kProgressSteps));
+  setLater(*progress_, static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kProgressSteps));
   takeRange();
   for (ViewPanel* panel : views()) {
     panel->takeGrowth();

@@ -11,6 +11,7 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QStatusBar>
+#include <QToolButton>
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -20,11 +21,13 @@
 #include "viewer/view/view_panel.h"
 #include "viewer/widget/scene_widget.h"
 #include "viewer/window/picture_saver.h"
+#include "viewer/window/set_later.h"
 
 namespace stillframe::viewer {
 namespace {
 
 constexpr int kLargestSide = 16384;
+constexpr int kProgressSteps = 1000;
 constexpr std::array<QSize, 4> kSizes{QSize(1280, 720), QSize(1920, 1080), QSize(3840, 2160), QSize(7680, 4320)};
 
 QString textOf(QSize size) { return QStringLiteral("%1 x %2").arg(size.width()).arg(size.height()); }
@@ -125,16 +128,39 @@ void addPictureActions(QMenu& menu, QMainWindow& window, PictureSaver& saver, st
   QStatusBar& bar = *window.statusBar();
   auto* const busy = new QProgressBar(&bar);
   busy->setObjectName(QStringLiteral("pictureProgress"));
-  busy->setRange(0, 0);
+  busy->setRange(0, kProgressSteps);
   busy->setMaximumSize(120, 14);
   busy->hide();
   bar.addPermanentWidget(busy);
-  const auto end = [&saver, busy] { busy->setVisible(saver.pending() > 0); };
-  QObject::connect(&saver, &PictureSaver::started, &bar, [&bar, busy](int width_px, int height_px) {
+  auto* const cancel = new QToolButton(&bar);
+  cancel->setObjectName(QStringLiteral("cancelPicture"));
+  cancel->setText(QObject::tr("Cancel"));
+  cancel->setToolTip(QObject::tr("Give up the picture that is being saved"));
+  cancel->setAutoRaise(true);
+  cancel->setMaximumHeight(bar.fontMetrics().height() + 2);  // hidden, it would make the bar higher
+  cancel->hide();
+  bar.addPermanentWidget(cancel);
+  QObject::connect(cancel, &QToolButton::clicked, &saver, &PictureSaver::cancel);
+  const auto show_busy = [busy, cancel](bool shown) {
+    busy->setVisible(shown);
+    cancel->setVisible(shown);
+  };
+  const auto end = [&saver, show_busy] { show_busy(saver.pending() > 0); };
+  QObject::connect(&saver, &PictureSaver::started, &bar, [&bar, busy, show_busy](int width_px, int height_px) {
     bar.showMessage(QObject::tr("Drawing the picture, %1 x %2 pixels").arg(width_px).arg(height_px));
-    busy->show();
+    setLater(*busy, 0);
+    show_busy(true);
   });
-  QObject::connect(&saver, &PictureSaver::drawn, &bar, [&bar] { bar.showMessage(QObject::tr("Writing the picture")); });
+  QObject::connect(&saver, &PictureSaver::progressed, busy,
+                   [busy](double share) { setLater(*busy, static_cast<int>(share * kProgressSteps)); });
+  QObject::connect(&saver, &PictureSaver::drawn, &bar, [&bar, busy] {
+    bar.showMessage(QObject::tr("Writing the picture"));
+    setLater(*busy, 0);
+  });
+  QObject::connect(&saver, &PictureSaver::cancelled, &bar, [&bar, end] {
+    bar.showMessage(QObject::tr("The picture was given up"));
+    end();
+  });
   QObject::connect(&saver, &PictureSaver::saved, &bar, [&bar, end](const QString& file, int width_px, int height_px) {
     bar.showMessage(QObject::tr("Saved %1, %2 x %3 pixels").arg(file).arg(width_px).arg(height_px));
     end();

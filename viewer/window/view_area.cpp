@@ -99,14 +99,17 @@ void ViewArea::insert(ViewPanel& panel, ViewPanel* beside, Side side) {
   QList<int> sizes = splitter->sizes();
   const bool is_before = side == Side::Left || side == Side::Above;
   const int index = beside == nullptr ? splitter->count() : splitter->indexOf(beside) + (is_before ? 0 : 1);
-  splitter->insertWidget(index, &panel);
-  if (beside == nullptr || sizes.size() < 2) {
-    sizes.fill(1000, splitter->count());
+  if (beside == nullptr) {
+    sizes.fill(1000, splitter->count() + 1);
   } else {
-    const int place = index - (is_before ? 0 : 1);
-    sizes[place] /= 2;
-    sizes.insert(place, sizes[place]);
+    const bool is_across = orientation == Qt::Horizontal;
+    const int place = splitter->indexOf(beside);
+    const int room = sizes.size() > 1 ? sizes[place] : is_across ? beside->width() : beside->height();
+    const int picture = std::max(room - (is_across ? beside->panelsWidth() : 0), 2) / 2;  // as large for each
+    sizes[place] = std::max(room - picture, 1);
+    sizes.insert(is_before ? place : place + 1, picture);
   }
+  splitter->insertWidget(index, &panel);
   splitter->setSizes(sizes);
   panel.show();
   if (beside != nullptr) {

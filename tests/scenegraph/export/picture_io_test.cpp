@@ -7,11 +7,13 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace stillframe::scenegraph {
 namespace {
@@ -114,6 +116,32 @@ TEST_F(PictureIo, BytesOfWildValuesAreClampedAndNotANumberIsBlack) {
                   .rgba = {-1, 7, std::nanf(""), 1, 0, 1, std::numeric_limits<float>::infinity(), 1},
                   .depth_m = {1, 1}};
   EXPECT_EQ(toBytes(picture).rgb, (std::vector<std::uint8_t>{0, 255, 0, 0, 255, 255}));
+}
+
+TEST_F(PictureIo, ProgressRisesAndCanBeGivenUp) {
+  const Picture tall{.width = 3, .height = 300, .rgba = std::vector<float>(3600), .depth_m = std::vector<float>(900)};
+  for (const auto& write : {+[](const Picture& picture, const std::filesystem::path& path, const WriteProgress& told) {
+                              return writePng(picture, path, told);
+                            },
+                            +[](const Picture& picture, const std::filesystem::path& path, const WriteProgress& told) {
+                              return writeExr(picture, path, told);
+                            }}) {
+    std::vector<double> shares;
+    ASSERT_TRUE(write(tall, folder_ / "tall", [&](double share) {
+      shares.push_back(share);
+      return true;
+    }));
+    EXPECT_GT(shares.size(), 3U);
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
+    EXPECT_GT(shares.back(), 0.5);
+    EXPECT_LT(shares.back(), 1.0);
+    const std::string before = contents(folder_ / "tall");
+    const auto given_up = write(tall, folder_ / "tall", [](double share) { return share < 0.5; });
+    ASSERT_FALSE(given_up);
+    EXPECT_NE(given_up.error().message.find("cancelled"), std::string::npos);
+    EXPECT_EQ(contents(folder_ / "tall"), before) << "what was there stays";
+    EXPECT_EQ(files(), 1U);
+  }
 }
 
 TEST_F(PictureIo, FailureToWriteNamesPathAndReason) {

@@ -176,8 +176,8 @@ TEST_F(ViewPipelineTest, DrawsAnArrayThatLiesWhereAnotherLayBefore) {
       }
       root_->addChild(shape);
       ASSERT_TRUE(pipeline_->renderLinear(32, 32));  // nothing is drawn after the scene, which would hide it
-      const LinearFrame frame = pipeline_->readLinear();
-      const auto red = [&](std::size_t x) { return frame.rgba[4 * (std::size_t{32} * 16 + x)] > 0.0F; };
+      const std::vector<float> row = pipeline_->readColor(16, 1);
+      const auto red = [&](std::size_t x) { return row.at(4 * x) > 0.0F; };
       EXPECT_EQ(red(8), side < 0) << side << (is_attribute ? ", an attribute" : "");
       EXPECT_EQ(red(24), side > 0) << side << (is_attribute ? ", an attribute" : "");
       root_->removeChildren(0, 1);
@@ -214,10 +214,15 @@ TEST_F(ViewPipelineTest, RunsPostPassesInOrder) {
   EXPECT_EQ(output.pixel(8, 8), (Rgb{255, 0, 255}));  // (0, 1, 1) -> (1, 0, 1)
   EXPECT_EQ(pipeline_->passes(), (Names{"scene", "invert", "rotate", "present"}));
   ASSERT_TRUE(pipeline_->renderLinear(16, 16));
-  const LinearFrame linear = pipeline_->readLinear();
-  ASSERT_EQ(linear.rgba.size(), 16U * 16U * 4U);
-  EXPECT_EQ(linear.rgba[0], 1.0F);
-  EXPECT_EQ(linear.rgba[1], 0.0F);
+  const std::vector<float> rows = pipeline_->readColor(3, 5);
+  ASSERT_EQ(rows.size(), 5U * 16U * 4U);
+  EXPECT_EQ(rows[0], 1.0F);
+  EXPECT_EQ(rows[1], 0.0F);
+  EXPECT_EQ(pipeline_->readDepth(11, 5).size(), 5U * 16U);
+  for (const auto& [first, count] : {std::pair{-1, 1}, {0, 0}, {12, 5}, {16, 1}}) {
+    EXPECT_TRUE(pipeline_->readColor(first, count).empty()) << first;
+    EXPECT_TRUE(pipeline_->readDepth(first, count).empty()) << first;
+  }
 
   pipeline_->setPostChain({});
   present(output);

@@ -25,7 +25,7 @@ constexpr int kDraws = 5;
 
 constexpr std::array<std::size_t, 3> kCounts{1, 2, 4};
 
-std::string nameOf(std::size_t views) { return std::to_string(views) + (views == 1 ? " view, " : " views, "); }
+std::string viewsName(std::size_t views) { return std::to_string(views) + (views == 1 ? " view, " : " views, "); }
 
 /// One view without a widget: what is a view's own.
 struct BenchView {
@@ -115,13 +115,13 @@ std::string viewsPlot(const std::vector<BenchResult>& results, const std::string
                               .y_label = "to that of one view",
                               .panels = {{.title = "Memory", .series = {}}, {.title = "Time", .series = {}}}};
   for (const BenchResult& one : results) {
-    const std::string head = nameOf(1);
+    const std::string head = viewsName(1);
     if (!one.name.starts_with(head) || !(one.value > 0.0)) {
       continue;
     }
     accuracy::PlotSeries series{.name = one.name.substr(head.size()), .points = {}};
     for (const std::size_t count : kCounts) {
-      const auto of_count = std::ranges::find(results, nameOf(count) + series.name, &BenchResult::name);
+      const auto of_count = std::ranges::find(results, viewsName(count) + series.name, &BenchResult::name);
       if (of_count != results.end()) {
         series.points.push_back({static_cast<double>(count), of_count->value / one.value});
       }
@@ -142,7 +142,7 @@ Result<void> benchViews(const RecordingOptions& options, std::vector<BenchResult
       return std::unexpected(costs.error());
     }
     one = count == 1 ? *costs : one;
-    const std::string name = nameOf(count);
+    const std::string name = viewsName(count);
     results.push_back({name + "decoded and converted", costs->cache_mib, "MiB"});
     results.push_back({name + "heap of data and scenes", costs->scenes_mib, "MiB"});
     results.push_back({name + "heap of contexts and pictures, 640 x 360", costs->pictures_mib, "MiB"});

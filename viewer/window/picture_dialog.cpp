@@ -27,7 +27,7 @@ namespace stillframe::viewer {
 namespace {
 
 constexpr int kLargestSide = 16384;
-constexpr int kProgressSteps = 1000;
+constexpr int kPictureSteps = 1000;
 constexpr std::array<QSize, 4> kSizes{QSize(1280, 720), QSize(1920, 1080), QSize(3840, 2160), QSize(7680, 4320)};
 
 QString textOf(QSize size) { return QStringLiteral("%1 x %2").arg(size.width()).arg(size.height()); }
@@ -128,7 +128,7 @@ void addPictureActions(QMenu& menu, QMainWindow& window, PictureSaver& saver, st
   QStatusBar& bar = *window.statusBar();
   auto* const busy = new QProgressBar(&bar);
   busy->setObjectName(QStringLiteral("pictureProgress"));
-  busy->setRange(0, kProgressSteps);
+  busy->setRange(0, kPictureSteps);
   busy->setMaximumSize(120, 14);
   busy->hide();
   bar.addPermanentWidget(busy);
@@ -152,7 +152,7 @@ void addPictureActions(QMenu& menu, QMainWindow& window, PictureSaver& saver, st
     show_busy(true);
   });
   QObject::connect(&saver, &PictureSaver::progressed, busy,
-                   [busy](double share) { setLater(*busy, static_cast<int>(share * kProgressSteps)); });
+                   [busy](double share) { setLater(*busy, static_cast<int>(share * kPictureSteps)); });
   QObject::connect(&saver, &PictureSaver::drawn, &bar, [&bar, busy] {
     bar.showMessage(QObject::tr("Writing the picture"));
     setLater(*busy, 0);

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <QApplication>
 #include <QComboBox>
 #include <QLineEdit>
 #include <QMenu>
 #include <QTest>
+#include <QToolButton>
 
 #include "tests/viewer/viewer_support.h"
 #include "viewer/frames/frame_picker.h"
@@ -50,6 +52,28 @@ TEST_F(CameraBarTest, ChoosingMovesTheViewAndTheViewsKeysMoveTheChoice) {
   EXPECT_EQ(panel_.view().camera().follow().mode(), FollowMode::Pose);
   QTest::keyClick(&panel_.view(), Qt::Key_T);
   EXPECT_EQ(bar().follows().currentIndex(), 0);
+}
+
+TEST_F(CameraBarTest, ANarrowBarSaysThatThereIsMoreInTheThemesColour) {
+  auto* const more = bar().findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+  ASSERT_NE(more, nullptr) << "Qt's name for it";
+  EXPECT_FALSE(more->isVisible());
+  panel_.resize(420, 500);
+  settle();
+  EXPECT_TRUE(more->isVisible());
+  EXPECT_FALSE(more->toolTip().isEmpty());
+  const QImage sign = more->icon().pixmap(32, 32).toImage();
+  int drawn = 0;
+  for (int y = 0; y < sign.height(); ++y) {
+    for (int x = 0; x < sign.width(); ++x) {
+      if (sign.pixelColor(x, y).alphaF() > 0.9F) {
+        EXPECT_NEAR(sign.pixelColor(x, y).lightnessF(), QApplication::palette().windowText().color().lightnessF(),
+                    0.02);
+        ++drawn;
+      }
+    }
+  }
+  EXPECT_GT(drawn, 50);
 }
 
 TEST_F(CameraBarTest, DisplayFrameIsChosenApartFromTheFixedFrame) {

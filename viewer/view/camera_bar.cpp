@@ -50,6 +50,11 @@ CameraBar::CameraBar(SceneWidget& view, QWidget* parent) : QToolBar(parent), vie
   button->setMenu(views_);
   button->setPopupMode(QToolButton::InstantPopup);
   addWidget(button);
+  // The style's own is black in any theme.
+  if (auto* const more = findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"))) {
+    more->setIcon(transportIcon(TransportIcon::More));
+    more->setToolTip(tr("More of the camera: follow, display frame, saved views"));
+  }
 
   connect(kinds_, &QComboBox::activated, this, [this](int index) {
     view_.setCameraKind(scenegraph::kCameraKinds[index]);

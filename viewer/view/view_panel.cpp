@@ -25,6 +25,19 @@ namespace {
 constexpr int kLayerPanelWidth = 270;
 constexpr int kLeastPickerWidth = 60;
 
+/// A label that is shown whole, or not at all where there is no room.
+class WholeLabel : public QLabel {
+ public:
+  using QLabel::QLabel;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override {
+    if (width() >= sizeHint().width()) {
+      QLabel::paintEvent(event);
+    }
+  }
+};
+
 }  // namespace
 
 ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter(Qt::Horizontal, this)) {
@@ -48,7 +61,7 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
                              tr("Legend: what the colours of values mean"));
   legend_button_->setCheckable(true);
   legend_button_->setChecked(true);
-  auto* label = new QLabel(tr("Fixed frame"), bar);
+  auto* label = new WholeLabel(tr("Fixed frame"), bar);
   bar_layout->addSpacing(4);
   bar_layout->addWidget(label);
   label->setMinimumWidth(1);  // where views stand side by side, they shrink before the window has to grow

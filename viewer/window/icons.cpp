@@ -102,6 +102,12 @@ void draw(QPainter& painter, const QPen& pen, TransportIcon icon) {
       painter.setBrush(pen.color());
       painter.drawPie(QRectF(9, 9, 30, 30), 90 * 16, 180 * 16);
       return;
+    case TransportIcon::More:
+      outline();
+      for (const qreal x : {10.0, 26.0}) {
+        painter.drawPolyline(QPolygonF({{x, 12.0}, {x + 12.0, 24.0}, {x, 36.0}}));
+      }
+      return;
     case TransportIcon::Legend:
       painter.drawRect(QRectF(8, 12, 16, 12));
       outline();

@@ -20,7 +20,8 @@ enum class TransportIcon {
   Close,
   Layers,
   Effects,
-  Legend
+  Legend,
+  More
 };
 
 [[nodiscard]] QIcon transportIcon(TransportIcon icon);

@@ -9,6 +9,7 @@
 #include <QMenuBar>
 #include <QMimeData>
 #include <QProgressBar>
+#include <QScreen>
 #include <QShortcut>
 #include <QStatusBar>
 #include <QToolBar>
@@ -55,7 +56,7 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
       progress_(new QProgressBar(this)) {
   setWindowTitle(QStringLiteral("Stillframe"));
   setAcceptDrops(true);
-  resize(options_.width, options_.height);
+  resize(QSize(options_.width, options_.height).boundedTo(screen()->availableSize()));
 
   auto* central = new QWidget(this);
   auto* layout = new QVBoxLayout(central);

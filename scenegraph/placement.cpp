@@ -23,7 +23,7 @@ std::string unknownTarget(const FrameGraph& frames, std::string_view frame) {
   for (const tf::FrameId root : buffer.roots()) {
     roots.push_back(buffer.frameName(root));
   }
-  return message + "; the roots are " + quotedList(roots);
+  return message + (roots.size() == 1 ? "; the root is " : "; the roots are ") + quotedList(roots);
 }
 
 std::string noSample(const tf::TransformBuffer& buffer, const tf::LookupFailure& failure) {

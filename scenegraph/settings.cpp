@@ -104,6 +104,11 @@ std::string settingText(const Color& value) {
   return text;
 }
 
+std::unexpected<SettingError> unknownSetting(const std::string& key, const std::vector<std::string>& known) {
+  return std::unexpected(SettingError{
+      "UnknownSetting", "no setting '" + key + "'; " + (known.empty() ? "there are none" : "known: " + joined(known))});
+}
+
 std::expected<SettingValue, SettingError> parseSetting(const SettingSpec& spec, std::string_view text) {
   const std::string_view word = trimmed(text);
   switch (spec.kind) {

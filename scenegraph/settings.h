@@ -56,6 +56,10 @@ struct SettingError {
   std::string message;  ///< names the key, the text and what would be accepted
 };
 
+/// The error "UnknownSetting", with those that there are.
+[[nodiscard]] std::unexpected<SettingError> unknownSetting(const std::string& key,
+                                                           const std::vector<std::string>& known);
+
 /// A parsed setting.
 using SettingValue = std::variant<bool, std::int64_t, double, std::string, Color>;
 
@@ -158,11 +162,11 @@ std::expected<void, SettingError> SettingsTable<S>::apply(const SettingTexts& te
       }
     }
     if (found == nullptr) {
-      std::string known;
+      std::vector<std::string> known;
       for (const Row& row : rows_) {
-        known += (known.empty() ? "" : ", ") + row.spec.key;
+        known.push_back(row.spec.key);
       }
-      return std::unexpected(SettingError{"UnknownSetting", "no setting '" + key + "'; known: " + known});
+      return unknownSetting(key, known);
     }
     const auto value = parseSetting(found->spec, text);
     if (!value) {

@@ -243,7 +243,7 @@ TEST(PlacementStatus, AnUnknownFixedFrameGetsNearNamesOrTheRoots) {
   EXPECT_EQ(whyNot(graph, "map").code, "UnknownTarget");
   EXPECT_TRUE(whyNot(graph, "map").message.contains("did you mean 'base_link'")) << whyNot(graph, "map").message;
   graph.setTick("xyzzy", {0});
-  EXPECT_TRUE(whyNot(graph, "base_link").message.contains("the roots are 'map'"));
+  EXPECT_TRUE(whyNot(graph, "base_link").message.contains("the root is 'map'"));
 }
 
 TEST(PlacementStatus, SaysWhenThereAreNoTransformsAtAll) {

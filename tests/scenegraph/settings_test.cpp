@@ -109,6 +109,17 @@ struct DerivedSettings : BaseSettings {
   bool on = false;
 };
 
+struct NothingToSet {};
+
+TEST(SettingsTable, AnUnknownKeyIsToldWhatThereIsOrThatThereIsNothing) {
+  NothingToSet nothing;
+  const auto refused_by_none = SettingsTable<NothingToSet>({}).apply({{"foo", "1"}}, nothing);
+  ASSERT_FALSE(refused_by_none);
+  EXPECT_EQ(refused_by_none.error().code, "UnknownSetting");
+  EXPECT_EQ(refused_by_none.error().message, "no setting 'foo'; there are none");
+  EXPECT_EQ(unknownSetting("foo", {"a", "b"}).error().message, "no setting 'foo'; known: a, b");
+}
+
 TEST(SettingsTable, TakesTheRowsOfABaseInTheirPlace) {
   const SettingsTable<BaseSettings> base{
       {{.key = "far", .label = "", .help = "", .kind = SettingKind::Double}, &BaseSettings::far_m},

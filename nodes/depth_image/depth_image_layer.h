@@ -71,7 +71,7 @@ class DepthImageLayer final : public SampleLayer<DepthFrame, DepthImageSettings>
   [[nodiscard]] bool isWorking() const override;
   /// nullopt while a part of it is under way.
   [[nodiscard]] std::optional<Joined> join(tf::TimePoint time);
-  void show(Joined joined);
+  void show(Joined shown);
   void measure();
 
   scenegraph::Status join_status_;  // of the camera or the colours

@@ -11,7 +11,7 @@ std::uint32_t BoxOnScreen::pointsWorthDrawing(double size_px) const noexcept {
   constexpr double kPointsASquare = 4.0;
   const glm::dvec2 squares = (high_px - low_px) / std::max(1.0, size_px) + 1.0;  // a size that is no number is 1
   const double points = kPointsASquare * squares.x * squares.y;
-  return points < kPassesOfSample ? std::bit_ceil(static_cast<std::uint32_t>(points) + 1U) : kPassesOfSample;
+  return points < kPassesOfSample ? std::bit_floor(static_cast<std::uint32_t>(points)) : kPassesOfSample;
 }
 
 BoxProjector::BoxProjector(const glm::dmat4& clip_from_points, int width_px, int height_px)

@@ -17,8 +17,8 @@ struct BoxOnScreen {
   double nearest = 0.0;  ///< reverse-Z depth that none of them exceeds
   double most_per_w = 0.0;
 
-  /// How many points of a group there are for a picture of it, at most: four for each square of `size_px` that they may
-  /// fall on (of as many places 98 % are met by chance). A power of two, up to kPassesOfSample.
+  /// How many points of a group a picture of it is worth, at most: two to four for each square of `size_px` that they
+  /// may fall on (of as many places 86 to 98 % are met by chance). A power of two, up to kPassesOfSample.
   [[nodiscard]] std::uint32_t pointsWorthDrawing(double size_px) const noexcept;
 };
 

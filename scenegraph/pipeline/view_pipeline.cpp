@@ -29,9 +29,8 @@ namespace {
 
 /// OpenGL in software takes some 300 ns a point; the CPU, before it draws any, some 10 ns a pixel.
 constexpr double kPointsAPixelThatPay = 1.0 / 30.0;
-/// A GPU draws fewer as primitives in a millisecond or two.
-constexpr std::size_t kPointsThatPayOnAGpu = 1'000'000;
-constexpr double kMostPixels = 1 << 24;  // at 20 bytes each
+constexpr std::size_t kPointsThatPayOnAGpu = 1'000'000;  // fewer are drawn as primitives in a millisecond or two
+constexpr double kMostPixels = 1 << 24;                  // at 20 bytes each
 
 }  // namespace
 
@@ -74,8 +73,9 @@ struct ViewPipeline::Impl {
   void drawFrame();
   [[nodiscard]] bool isPaced() const { return is_software && std::isfinite(point_limits.budget_ms); }
   [[nodiscard]] GLuint textureId(const std::string& target) const;
-  [[nodiscard]] bool hasRows(int first, int rows) const {
-    return stages && first >= 0 && rows > 0 && rows <= height_px - first;
+  [[nodiscard]] auto read(decltype(gl::readColor)* reader, const std::string& target, int first, int rows) const {
+    const bool has_rows = stages && first >= 0 && rows > 0 && rows <= height_px - first;
+    return has_rows ? reader(textureId(target), {width_px, first, rows}) : std::vector<float>{};
   }
   std::expected<void, Status> checkTargets() const;
   std::expected<void, Status> draw(std::uint32_t output_fbo, int width, int height, bool present);
@@ -175,7 +175,6 @@ std::expected<void, Status> ViewPipeline::Impl::checkTargets() const {
                                     std::to_string(status) + ")"});
 }
 
-/// Who is to draw them, when it is not for OpenGL in any case.
 PointWay ViewPipeline::Impl::wayOf(const PointCollection& points) const {
   if (points.count == 0 || point_way != PointWay::Auto) {
     return points.count == 0 ? PointWay::OpenGl : point_way;
@@ -330,14 +329,10 @@ std::expected<void, Status> ViewPipeline::renderLinear(int width_px, int height_
 }
 
 std::vector<float> ViewPipeline::readColor(int first_row, int rows) const {
-  return impl_->hasRows(first_row, rows)
-             ? gl::readColor(impl_->textureId(impl_->stages->lastTarget()), {impl_->width_px, first_row, rows})
-             : std::vector<float>{};
+  return impl_->read(&gl::readColor, impl_->stages ? impl_->stages->lastTarget() : "", first_row, rows);
 }
-
 std::vector<float> ViewPipeline::readDepth(int first_row, int rows) const {
-  return impl_->hasRows(first_row, rows) ? gl::readDepth(impl_->textureId("depth"), {impl_->width_px, first_row, rows})
-                                         : std::vector<float>{};
+  return impl_->read(&gl::readDepth, "depth", first_row, rows);
 }
 
 const std::vector<std::string>& ViewPipeline::passes() const noexcept { return impl_->passes; }

@@ -14,6 +14,7 @@
 #include "scenegraph/camera/view_camera.h"
 #include "scenegraph/passes/view_effects.h"
 #include "scenegraph/pick/scene_pick.h"
+#include "scenegraph/pipeline/draw_times.h"
 #include "scenegraph/pipeline/gl_debug.h"
 #include "scenegraph/pipeline/picture.h"
 #include "scenegraph/scene.h"
@@ -24,12 +25,7 @@
 
 class QLabel;
 
-namespace stillframe::scenegraph {
-class DrawTimes;
-}
-
 namespace stillframe::viewer {
-
 class HelpOverlay;
 class ViewPicker;
 class ViewPicks;
@@ -47,26 +43,21 @@ class SceneWidget : public QOpenGLWidget {
  public:
   explicit SceneWidget(QWidget* parent = nullptr);
   ~SceneWidget() override;
-
   /// Shows `dataset` from now on, with no layers yet. `executor` must outlive the widget. nullptr shows nothing.
   void setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegraph::Executor& executor);
   /// nullptr before the first dataset. Call requestTick() after changing its layers.
   [[nodiscard]] scenegraph::Scene* scene() noexcept { return scene_.get(); }
-
   void setTime(tf::TimePoint time);
   [[nodiscard]] tf::TimePoint time() const noexcept { return time_; }
-  /// Changes the fixed frame at the next tick and carries the camera over, so that it goes on looking at the same
-  /// place.
+  /// At the next tick; the camera is carried over, so that it goes on looking at the same place.
   void setFixedFrame(const std::optional<std::string>& frame);
   /// The scene may have changed: poses frames and updates layers soon. Any thread.
   void requestTick() { gate_.request(); }
   /// Does now what is requested. Returns whether a repaint follows.
   bool applyTick();
-
   [[nodiscard]] const scenegraph::ViewCamera& camera() const noexcept { return camera_; }
   /// What the next frame is drawn from: at the tick that was applied last, at this moment of a smooth move.
   [[nodiscard]] scenegraph::CameraView shownView() const { return camera_.view(now()); }
-  /// At once, exactly.
   void setViewpoint(const scenegraph::ViewpointState& state);
   /// The same with a saved one. Until the camera is moved or endRestoring(), it counts in whatever fixed frame
   /// automatic choice comes to while data arrives, and neither is carried over nor framed anew. `is_touched`: as saved.
@@ -86,7 +77,6 @@ class SceneWidget : public QOpenGLWidget {
   [[nodiscard]] bool hasSmoothMoves() const noexcept { return has_smooth_moves_; }
   void setSelection(const std::optional<Selection>& selection) { selection_ = selection; }
   [[nodiscard]] const std::optional<Selection>& selection() const noexcept { return selection_; }
-
   /// What the last frame shows at a place of the widget, and near it. Draws no frame.
   std::expected<scenegraph::PickResult, scenegraph::PickError> pick(QPointF position);
   /// What clicks have picked and measured; what is picked is the selection.
@@ -95,43 +85,35 @@ class SceneWidget : public QOpenGLWidget {
   void setSavedViews(std::vector<scenegraph::SavedView> views);
   /// Saves what is shown; a view of that name is replaced, without a name it becomes "View 1", "View 2", ...
   void saveView(const QString& name = {});
-  /// False when there is no view of that name.
   bool showSavedView(const QString& name);
   void setBackground(const scenegraph::Color& background);
   void setEffects(const scenegraph::ViewEffects& effects);
   [[nodiscard]] const scenegraph::ViewEffects& effects() const noexcept { return effects_; }
-  /// Who draws opaque points (ViewPipeline::setPointWay).
   void setPointWay(scenegraph::PointWay way);
   /// A picture of what is shown, of any size, whole; blocks until it is drawn. "NotDrawn" before the first frame, and
   /// what scenegraph::checkPicture() refuses.
   [[nodiscard]] std::expected<scenegraph::Picture, scenegraph::Status> takePicture(const PictureRequest& request);
-  /// The same in steps, for who wants to answer meanwhile: begin, continue until the share that is done is 1, and take
-  /// it. Drawing is one step, reading it back is steps of some ten milliseconds. The view stands still as long.
+  /// The same in steps, the view standing still meanwhile: drawing is one, reading back takes some of milliseconds.
   [[nodiscard]] std::expected<void, scenegraph::Status> beginPicture(const PictureRequest& request);
-  /// "NotDrawn" when there is none any more: the view has lost its context, or has another recording.
+  /// The share that is done, 1 at last. "NotDrawn" when the view has lost its context, or has another recording.
   [[nodiscard]] std::expected<double, scenegraph::Status> continuePicture();
   /// What there is of it; the view goes on.
   scenegraph::Picture endPicture();
-
   /// Share of the points that the last frame has drawn; below 1 the view goes on by itself until all are.
   [[nodiscard]] double pointShare() const;
   /// Measures what each layer takes to draw by itself, a frame an event: drawTimesMeasured() follows, unless the scene
   /// changes meanwhile. The view stands still as long. Does nothing before the first frame.
   void measureDrawTimes();
   [[nodiscard]] std::uint64_t framesDrawn() const noexcept { return frames_drawn_; }
-  /// OpenGL debug messages so far, over all contexts.
   [[nodiscard]] std::size_t glMessages() const noexcept { return gl_messages_ + debug_log_.count(); }
   /// What is shown instead of the scene, "" when the scene is shown.
   [[nodiscard]] QString problem() const;
 
  public Q_SLOTS:
-  /// The default direction, all data in sight; once more when the first data of a topic comes into sight, unless the
-  /// camera was moved by hand before.
+  /// The default direction, all data in sight; again when a topic's first data comes, unless moved by hand before.
   void home();
-  /// home() at once.
   void resetView();
   void toggleHelp();
-  /// All data in sight from the present direction.
   void frameAll();
   /// The selection in sight, or all data when nothing is selected or it has no place now.
   void frameSelection();
@@ -185,7 +167,6 @@ class SceneWidget : public QOpenGLWidget {
   void showProgress();
   void sayProgress(const QString& text);
   [[nodiscard]] double aspect() const;
-
   UpdateGate gate_;
   scenegraph::GlDebugLog debug_log_;
   std::size_t gl_messages_ = 0, logged_messages_ = 0;  // of contexts that are gone; of debug_log_ that went to glLog
@@ -205,13 +186,11 @@ class SceneWidget : public QOpenGLWidget {
   scenegraph::Color background_{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
   scenegraph::ViewEffects effects_;
   scenegraph::PointWay point_way_ = scenegraph::PointWay::Auto;
-  bool is_software_ = false;  // the OpenGL that draws
   tf::TimePoint time_;
   bool wants_framing_ = true, has_framed_data_ = false, is_camera_touched_ = false;
-  std::optional<scenegraph::ViewpointState> restored_;  // what restoreViewpoint() holds on to
-  bool is_context_usable_ = false, is_resizing_ = false;
-  std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels;
-  std::uint64_t frames_drawn_ = 0;
+  bool is_software_ = false, is_context_usable_ = false, is_resizing_ = false;  // software: the OpenGL that draws
+  std::optional<scenegraph::ViewpointState> restored_;                          // what restoreViewpoint() holds on to
+  std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels, frames_drawn_ = 0;
   QMetaObject::Connection context_watch_;
   QLabel *message_ = nullptr, *progress_label_ = nullptr;
   HelpOverlay* help_ = nullptr;

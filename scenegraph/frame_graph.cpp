@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "scenegraph/buffer_patches.h"
+
 namespace stillframe::scenegraph {
 namespace {
 

@@ -80,6 +80,13 @@ TEST_F(LayerPanelTest, ListsEveryLayerWithItsSettingsAndStatus) {
   EXPECT_EQ(tree_.settingRows("/points")->editor("range_min"), nullptr) << "the range is one row";
 }
 
+TEST(LayerCounts, AreInTheSingularForOne) {
+  EXPECT_EQ(counted(1, "poses"), "1 pose");
+  EXPECT_EQ(counted(1, "entities"), "1 entity");
+  EXPECT_EQ(counted(0, "points"), "0 points");
+  EXPECT_EQ(counted(2, "entities"), "2 entities");
+}
+
 TEST_F(LayerPanelTest, ShowsWhyALayerIsNotDrawnInWordsThatCanBeCopied) {
   ASSERT_TRUE(scene_.addLayer("/points").has_value());
   panel_.setScene(&scene_);

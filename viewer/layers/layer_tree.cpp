@@ -39,6 +39,15 @@ QString layerName(const scenegraph::LayerSlot& slot) {
   return is_builtin && slot.title == slot.topic ? toQString(slot.type->label) : QString::fromStdString(slot.title);
 }
 
+QString counted(std::uint64_t count, QString name) {
+  if (count == 1 && name.endsWith(QStringLiteral("ies"))) {
+    name = name.chopped(3) + QLatin1Char('y');
+  } else if (count == 1 && name.endsWith(QLatin1Char('s'))) {
+    name.chop(1);
+  }
+  return QLocale().toString(static_cast<qulonglong>(count)) + QLatin1Char(' ') + name;
+}
+
 QString statusLine(const scenegraph::Layer& layer) {
   if (!layer.isVisible()) {
     return {};
@@ -50,7 +59,7 @@ QString statusLine(const scenegraph::Layer& layer) {
   QStringList parts;
   if (const auto counts = layer.counts(); !counts.empty()) {
     const auto& [name, count] = counts.front();
-    parts << QLocale().toString(static_cast<qulonglong>(count)) + QLatin1Char(' ') + QString::fromStdString(name);
+    parts << counted(count, QString::fromStdString(name));
   }
   if (status.level == StatusLevel::Info) {
     parts << QString::fromStdString(status.code);

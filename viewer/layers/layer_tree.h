@@ -93,6 +93,8 @@ class LayerTree : public QTreeWidget {
   std::uint64_t measured_revision_ = 0;            // of the scene, that they hold for
 };
 
+/// "28,800 points", "1 pose"; `name` is a plural, as counts() has them.
+[[nodiscard]] QString counted(std::uint64_t count, QString name);
 /// What a row says beside its name: why nothing is drawn, else how much is and the code of a note ("39,712 points,
 /// PointsDropped"); the row beneath has the sentence.
 [[nodiscard]] QString statusLine(const scenegraph::Layer& layer);

@@ -23,7 +23,10 @@ constexpr unsigned kPointsUnit = 0;
 constexpr unsigned kStylesUnit = 1;
 constexpr unsigned kChannelUnit = 2;
 
-enum Mode : int { kOneColor = 0, kColors = 1, kValues = 2 };
+// How it is coloured, as the shader knows it.
+constexpr int kOneColor = 0;
+constexpr int kColors = 1;
+constexpr int kValues = 2;
 
 }  // namespace
 

@@ -33,7 +33,7 @@ class FewOf {
   }
 
   /// Invalidates references to the elements.
-  T& push_back(T value) {
+  T& push_back(T value) {  // NOLINT(readability-identifier-naming): as containers have it
     if (empty()) {
       return one_.emplace(std::move(value));
     }

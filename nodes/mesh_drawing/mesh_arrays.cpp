@@ -82,14 +82,14 @@ MeshArrays::MeshArrays(const MeshData& mesh) {
   bytes_ = sizeof(*this) + mesh.byteSize();
 }
 
-MeshArrays::MeshArrays(const TriangleMesh& mesh) {
+MeshArrays::MeshArrays(const TriangleMesh& mesh)
+    : triangles_(mesh.triangles.size() / 3),
+      bytes_(sizeof(*this) + mesh.positions.size() * 2 * sizeof(glm::vec3) + mesh.triangles.size() * 4) {
   setVertices(mesh.positions, mesh.normals);
   Part part;
   part.triangles = trianglesOf(mesh.triangles);
   part.box = boxOf(*part.triangles);
   parts_.push_back(std::move(part));
-  triangles_ = mesh.triangles.size() / 3;
-  bytes_ = sizeof(*this) + mesh.positions.size() * 2 * sizeof(glm::vec3) + mesh.triangles.size() * 4;
 }
 
 osg::BoundingBox MeshArrays::boxOf(const osg::DrawElementsUInt& triangles) const {

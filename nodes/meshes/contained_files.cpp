@@ -55,7 +55,7 @@ bool isBeneath(const std::filesystem::path& file, const std::filesystem::path& f
 }  // namespace
 
 ContainedFiles::ContainedFiles(std::span<const std::byte> mesh, std::filesystem::path mesh_name,
-                               std::filesystem::path folder, std::filesystem::path within)
+                               std::filesystem::path folder, const std::filesystem::path& within)
     : mesh_(mesh),
       mesh_name_(std::move(mesh_name)),
       folder_(std::move(folder)),
@@ -72,7 +72,7 @@ std::optional<std::filesystem::path> ContainedFiles::find(const std::string& nam
     std::error_code ignored;
     return std::filesystem::is_regular_file(file, ignored);
   };
-  const auto asked = (folder_ / path).lexically_normal();
+  auto asked = (folder_ / path).lexically_normal();
   if (!path.is_absolute() && isBeneath(asked, within_) && isFile(asked)) {
     return asked;
   }

@@ -17,7 +17,7 @@ namespace stillframe::nodes {
 class ContainedFiles final : public Assimp::IOSystem {
  public:
   ContainedFiles(std::span<const std::byte> mesh, std::filesystem::path mesh_name, std::filesystem::path folder,
-                 std::filesystem::path within);
+                 const std::filesystem::path& within);
 
   /// Bytes of a file beside the mesh; nullopt when there is none that may be read.
   [[nodiscard]] std::optional<std::vector<std::byte>> read(const std::string& name) const;

@@ -233,7 +233,7 @@ std::optional<std::filesystem::path> findMeshImporter() {
   }
   folders.emplace_back(STILLFRAME_LIBEXEC_DIR);
   for (const auto& folder : folders) {
-    const auto file = (folder / kProgram).lexically_normal();
+    auto file = (folder / kProgram).lexically_normal();
     if (access(file.c_str(), X_OK) == 0) {
       return file;
     }

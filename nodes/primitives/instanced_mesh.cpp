@@ -157,7 +157,7 @@ void InstancedMesh::commit() {
       osg::Vec3d low;
       osg::Vec3d high;
       for (int row = 0; row < 3; ++row) {
-        const float* const m = &instance.local_from_mesh[static_cast<std::size_t>(4 * row)];
+        const float* const m = &instance.local_from_mesh[std::size_t{4} * static_cast<std::size_t>(row)];
         const double at_centre = m[0] * centre.x + m[1] * centre.y + m[2] * centre.z + m[3];
         double reach = std::abs(m[0]) * half.x + std::abs(m[1]) * half.y + std::abs(m[2]) * half.z;
         if (faces_viewer_) {  // whichever way it is turned

@@ -24,7 +24,7 @@ Instance makeInstance(const tf::RigidTransform& frame_from_mesh, const glm::dvec
     for (int column = 0; column < 4; ++column) {
       const double value = column < 3 ? rotation[column][row] * scale[column] : offset[row];
       is_sound = is_sound && std::abs(value) <= kReach;  // false for NaN
-      rows[static_cast<std::size_t>(4 * row + column)] = value;
+      rows[std::size_t{4} * static_cast<std::size_t>(row) + static_cast<std::size_t>(column)] = value;
     }
   }
   if (is_sound) {

@@ -25,8 +25,8 @@ void addBand(TriangleMesh& mesh, const Ring& below, const Ring& above, unsigned 
     const double s = std::sin(angle);
     for (const Ring& ring : {below, above}) {
       mesh.positions.emplace_back(ring.radius * c, ring.radius * s, ring.z);
-      mesh.normals.push_back(
-          glm::vec3(glm::normalize(glm::dvec3(ring.normal_radial * c, ring.normal_radial * s, ring.normal_z))));
+      mesh.normals.emplace_back(
+          glm::normalize(glm::dvec3(ring.normal_radial * c, ring.normal_radial * s, ring.normal_z)));
     }
   }
   for (unsigned i = 0; i < sides; ++i) {

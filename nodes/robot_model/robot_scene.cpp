@@ -162,8 +162,9 @@ class RobotSceneBuilder {
   }
 
   /// The mesh with the description's texture on those of its parts that have no material of their own.
-  std::shared_ptr<const MeshArrays> texturedMesh(const RobotShape& shape, std::shared_ptr<const MeshArrays> plain) {
-    const auto [known, is_new] = textured_.try_emplace({shape.mesh_uri, shape.texture_uri}, std::move(plain));
+  std::shared_ptr<const MeshArrays> texturedMesh(const RobotShape& shape,
+                                                 const std::shared_ptr<const MeshArrays>& plain) {
+    const auto [known, is_new] = textured_.try_emplace({shape.mesh_uri, shape.texture_uri}, plain);
     const auto data = is_new ? loader_.load(shape.mesh_uri, file_, options_.meshes) : MeshLoader::Loaded();
     if (!is_new || !data || (*data)->uvs.empty()) {
       return known->second;

@@ -97,12 +97,12 @@ std::expected<void, Status> drawPicture(ViewPipeline& pipeline, const RenderOpti
 }
 
 PictureReader::PictureReader(ViewPipeline& pipeline, RenderOptions options)
-    : pipeline_(pipeline), options_(std::move(options)) {
+    : pipeline_(pipeline),
+      options_(std::move(options)),
+      rows_(static_cast<int>(std::max<std::size_t>(1, kPixelsAStep / static_cast<std::size_t>(options_.width)))),
+      bands_((options_.height + rows_ - 1) / rows_) {
   const bool has_alpha = options_.background.a < 1.0F;
-  const auto width = static_cast<std::size_t>(options_.width);
-  const std::size_t pixels = width * static_cast<std::size_t>(options_.height);
-  rows_ = static_cast<int>(std::max<std::size_t>(1, kPixelsAStep / width));
-  bands_ = (options_.height + rows_ - 1) / rows_;
+  const std::size_t pixels = static_cast<std::size_t>(options_.width) * static_cast<std::size_t>(options_.height);
   steps_ = has_alpha ? 2 * bands_ + 1 : bands_;
   picture_ = {.width = options_.width, .height = options_.height, .rgba = {}, .depth_m = {}, .has_alpha = has_alpha};
   picture_.rgba.reserve(4 * pixels);

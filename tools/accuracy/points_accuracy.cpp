@@ -31,7 +31,7 @@ struct Seen {
   std::vector<bool> is_covered;
 };
 
-Seen seenOf(scenegraph::Picture picture) {
+Seen seenOf(const scenegraph::Picture& picture) {
   Seen seen;
   for (const float depth : picture.depth_m) {
     seen.is_covered.push_back(std::isfinite(depth));

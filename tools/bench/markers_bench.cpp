@@ -20,7 +20,8 @@ std::shared_ptr<const std::vector<std::byte>> cubes(int count) {
     marker.frame_id = "map";
     marker.ns = "cubes";
     marker.id = i;
-    marker.pose.translation = {0.1 * (i % 300), 0.1 * (i / 300), 0.0};
+    const int row = i / 300;
+    marker.pose.translation = {0.1 * (i % 300), 0.1 * row, 0.0};
   }
   return std::make_shared<const std::vector<std::byte>>(sample::serializeMarkerArray(all));
 }

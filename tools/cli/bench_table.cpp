@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -46,8 +47,8 @@ std::string targetOf(const Json& row) {
 /// Names of all rows: those of the last run in its order, then what only earlier ones have.
 std::vector<std::string> namesOf(const std::vector<BenchRun>& runs) {
   std::vector<std::string> names;
-  for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
-    for (const Json& row : run->json["results"]) {
+  for (const BenchRun& run : runs | std::views::reverse) {
+    for (const Json& row : run.json["results"]) {
       if (const std::string name = row.value("name", ""); std::ranges::find(names, name) == names.end()) {
         names.push_back(name);
       }

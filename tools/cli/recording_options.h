@@ -10,7 +10,7 @@
 #include "tools/cli/cli_error.h"
 #include "tools/ingest/recording.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11 has it so
 class App;
 }
 

@@ -4,7 +4,7 @@
 
 #include "tools/cli/cli_error.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11 has it so
 class App;
 }
 

@@ -7,7 +7,7 @@
 #include "scenegraph/passes/view_effects.h"
 #include "tools/cli/cli_error.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11 has it so
 class App;
 }
 

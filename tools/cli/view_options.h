@@ -14,7 +14,7 @@
 #include "tools/cli/time_argument.h"
 #include "tools/cli/value_arguments.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11 has it so
 class App;
 }
 

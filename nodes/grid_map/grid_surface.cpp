@@ -1,5 +1,4 @@
 #include "nodes/grid_map/grid_surface.h"
-#include "nodes/texel_formats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,8 @@
 #include <osg/Image>
 #include <string>
 #include <tuple>
+
+#include "nodes/texel_formats.h"
 
 namespace stillframe::nodes {
 namespace {

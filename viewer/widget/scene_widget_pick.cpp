@@ -13,7 +13,7 @@ std::expected<scenegraph::PickResult, scenegraph::PickError> SceneWidget::pick(Q
   const double ratio = devicePixelRatioF();
   const double x = std::floor(position.x() * ratio);
   const double y = std::floor(position.y() * ratio);
-  constexpr double kMost = std::numeric_limits<int>::max() / 2;
+  constexpr double kMost = 0.5 * std::numeric_limits<int>::max();
   if (scene_ == nullptr || pipeline_ == nullptr || !is_context_usable_ || isLent() ||
       !(std::abs(x) < kMost && std::abs(y) < kMost)) {
     return std::unexpected(scenegraph::PickError::NothingThere);

@@ -35,6 +35,14 @@ class StillTicks : public ScenePictureTest {
     scene_->update(tf::TimePoint{1_s});
     scene_->update(tf::TimePoint{1_s});
   }
+
+  /// Nothing that a frame would take to the driver was written since `before`.
+  void expectUntouchedSince(const GraphWrites& before) {
+    const GraphWrites after(scene_->root());
+    EXPECT_EQ(after.uniforms, before.uniforms);
+    EXPECT_EQ(after.arrays, before.arrays);
+    EXPECT_EQ(after.addresses, before.addresses);
+  }
 };
 
 TEST_F(StillTicks, WriteNothingWhereNothingMoved) {
@@ -42,22 +50,17 @@ TEST_F(StillTicks, WriteNothingWhereNothingMoved) {
   const GraphWrites before(scene_->root());
   EXPECT_GT(before.uniforms, 0U);
   scene_->update(tf::TimePoint{1_s + 1_ms});  // another time, and the same samples of everything
-  const GraphWrites after(scene_->root());
   EXPECT_EQ(scene_->frames().lastTick().matrices_written, 0U);
   EXPECT_EQ(scene_->frames().lastTick().masks_changed, 0U);
-  EXPECT_EQ(after.uniforms, before.uniforms);
-  EXPECT_EQ(after.arrays, before.arrays);
-  EXPECT_EQ(after.addresses, before.addresses);
+  expectUntouchedSince(before);
 }
 
 TEST_F(StillTicks, WriteOneMatrixWhereOneFrameMoved) {
   openClouds({{"color_field", "intensity"}});
   const GraphWrites before(scene_->root());
   scene_->update(tf::TimePoint{2_s});
-  const GraphWrites after(scene_->root());
   EXPECT_EQ(scene_->frames().lastTick().matrices_written, 1U);
-  EXPECT_EQ(after.uniforms, before.uniforms);
-  EXPECT_EQ(after.arrays, before.arrays);
+  expectUntouchedSince(before);
 }
 
 TEST_F(StillTicks, WriteOneUniformWhereAnAxisGivesTheColour) {
@@ -75,11 +78,8 @@ TEST_F(StillTicks, ShowingWhatWasMaskedOffIsNoWrite) {
   scene_->update(tf::TimePoint{0});
   const GraphWrites before(scene_->root());
   scene_->update(tf::TimePoint{2_s});
-  const GraphWrites after(scene_->root());
   EXPECT_EQ(scene_->frames().lastTick().matrices_written, 1U);
-  EXPECT_EQ(after.uniforms, before.uniforms);
-  EXPECT_EQ(after.arrays, before.arrays);
-  EXPECT_EQ(after.addresses, before.addresses);
+  expectUntouchedSince(before);
 }
 
 TEST_F(StillTicks, AWriteBeneathAMaskedNodeCounts) {

@@ -16,7 +16,7 @@ struct TextStyle {
   bool is_in_pixels = true;
   bool faces_viewer = true;  ///< else in the plane z = 0, running along +x
   bool is_centred = false;   ///< about the origin; else with its lower left corner there
-  scenegraph::Color color;
+  scenegraph::Color color = {};
 };
 
 /// Makes texts: UTF-8, any number of lines, sharp up to the height of its glyphs in their texture.

@@ -1,7 +1,10 @@
 #include "scenegraph/store/transform_loader.h"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
+
+#include "scenegraph/stopwatch.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -70,8 +73,11 @@ void TransformLoader::take(const Progress& progress) {
     const bool was_log_time = uses_log_time_;
     settleClock();
     if (uses_log_time_ != was_log_time && buffer_.frameCount() > 0) {
-      refill();
-      return;
+      if (has_forgotten_) {
+        refill();
+        return;
+      }
+      clearBuffer();
     }
   }
   insertGathered();
@@ -79,20 +85,43 @@ void TransformLoader::take(const Progress& progress) {
 
 bool TransformLoader::decodeQueue(const Progress& progress, bool hold) {
   constexpr std::size_t kReportEvery = 256;
+  constexpr double kSlowMs =
+      2.0;  // a chunk was unpacked: what else it holds comes at once, the next may take long again
   const std::uint64_t all = queue_.size();
+  std::size_t since_slow = kReportEvery;
   while (queue_next_ < queue_.size()) {
+    const auto start = std::chrono::steady_clock::now();
     decodeOne(queue_[queue_next_++]);
+    since_slow = millisecondsSince(start) > kSlowMs ? 0 : since_slow + 1;
     if (!hold && gathered_.size() >= kBatch) {
       insertGathered();
     }
-    if (progress && (queue_next_ % kReportEvery == 0 || queue_next_ == all) && !progress(queue_next_, all)) {
-      if (!hold) {
-        insertGathered();
+    const bool is_due = since_slow < kReportEvery || queue_next_ % kReportEvery == 0 || queue_next_ == all;
+    if (progress && is_due) {
+      insertProvisionally();
+      if (!progress(queue_next_, all)) {
+        if (!hold) {
+          insertGathered();
+        }
+        return queue_next_ == all;
       }
-      return queue_next_ == all;
     }
   }
   return true;
+}
+
+void TransformLoader::insertProvisionally() {
+  // The first few decide, and no more until all is there.
+  if (is_automatic_ && !is_settled_ && !has_forgotten_ && clock_samples_in_use_ < kEnoughClockSamples) {
+    const bool is_mismatch = compareClocks(clock_samples_).is_mismatch;
+    if (inserted_ > 0 && is_mismatch != uses_log_time_) {
+      clearBuffer();
+    }
+    uses_log_time_ = is_mismatch;
+    clock_samples_in_use_ = clock_samples_.size();
+  }
+  insertFrom(inserted_);
+  inserted_ = gathered_.size();
 }
 
 void TransformLoader::decodeOne(const Work& work) {
@@ -159,9 +188,9 @@ void TransformLoader::settleClock() {
   }
 }
 
-void TransformLoader::insertGathered() {
+void TransformLoader::insertFrom(std::size_t first) {
   std::vector<tf::TransformSample> batch;
-  for (std::size_t begin = 0; begin < gathered_.size(); begin += kBatch) {
+  for (std::size_t begin = first; begin < gathered_.size(); begin += kBatch) {
     batch.clear();
     for (std::size_t i = begin; i < std::min(begin + kBatch, gathered_.size()); ++i) {
       const Sample& sample = gathered_[i];
@@ -185,8 +214,24 @@ void TransformLoader::insertGathered() {
     }
     unlisted_refusals_ += unlisted;
   }
+}
+
+void TransformLoader::insertGathered() {
+  insertFrom(inserted_);
+  has_forgotten_ |= !gathered_.empty();
   gathered_ = {};
+  inserted_ = 0;
   buffer_.pack();
+}
+
+void TransformLoader::clearBuffer() {
+  refusal_problems_.clear();
+  refusal_index_.clear();
+  unlisted_refusals_ = 0;
+  inserted_ = 0;
+  clock_samples_in_use_ = 0;
+  has_forgotten_ = false;
+  buffer_.clear();
 }
 
 void TransformLoader::refill() {
@@ -194,6 +239,7 @@ void TransformLoader::refill() {
   queue_next_ = 0;
   cursors_.clear();
   gathered_.clear();
+  inserted_ = 0;
   decode_problems_.clear();
   const bool is_undecided = is_automatic_ && !is_settled_;
   if (is_undecided) {
@@ -205,10 +251,7 @@ void TransformLoader::refill() {
   if (is_undecided) {
     settleClock();
   }
-  refusal_problems_.clear();
-  refusal_index_.clear();
-  unlisted_refusals_ = 0;
-  buffer_.clear();
+  clearBuffer();
   insertGathered();
 }
 

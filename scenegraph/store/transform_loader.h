@@ -23,6 +23,10 @@ namespace stillframe::scenegraph {
 /// Moves the FrameTransforms entries of a store into a TransformBuffer, each once, under one clock. Dataset's inner
 /// part.
 ///
+/// Who watches the progress finds in the buffer what has been decoded so far: what is seen at the beginning of a long
+/// recording need not wait for its end. Until all is there it lies under the clock that the first transforms tell of;
+/// should all of them tell otherwise, everything is inserted anew.
+///
 /// Not thread-safe: Dataset lets one caller in at a time. Memory: a cursor per topic; while the clock is not settled,
 /// 88 bytes for each transform seen.
 class TransformLoader {
@@ -54,8 +58,11 @@ class TransformLoader {
   };
   void queueNew();
   bool decodeQueue(const Progress& progress, bool hold);
+  void insertProvisionally();
+  void clearBuffer();
   void decodeOne(const Work& work);
   void settleClock();
+  void insertFrom(std::size_t first);
   void insertGathered();
   void refill();
   std::uint32_t nameIndex(const std::string& name);
@@ -66,7 +73,10 @@ class TransformLoader {
   std::vector<std::uint64_t> cursors_;  // per topic: the next sequence to take
   std::vector<Work> queue_;             // known, not yet decoded; by log time
   std::size_t queue_next_ = 0;
-  std::vector<Sample> gathered_;  // decoded, not yet inserted
+  std::vector<Sample> gathered_;          // decoded, and not yet inserted but for the first inserted_
+  std::size_t inserted_ = 0;              // provisionally: the clock may turn out to be the other
+  std::size_t clock_samples_in_use_ = 0;  // that told of the clock they lie under
+  bool has_forgotten_ = false;            // samples in the buffer that gathered_ does not hold
   std::deque<std::string> names_;
   std::unordered_map<std::string_view, std::uint32_t> name_index_;
 

@@ -197,6 +197,45 @@ TEST(Dataset, StopsEarlyAndGoesOnFromThere) {
   }
 }
 
+TEST(Dataset, WhoWatchesTheProgressFindsWhatHasBeenDecodedSoFar) {
+  for (const TfClock clock : {TfClock::Auto, TfClock::Log}) {
+    DatasetBuilder builder = drive(2'000, 0);
+    const auto& dataset = builder.raw();
+    dataset->setTfClock(clock);
+    int looks = 0;
+    dataset->takeTransforms([&](std::uint64_t done, std::uint64_t all) {
+      const auto newest = static_cast<double>(done - 1);
+      EXPECT_DOUBLE_EQ(xOf(*dataset, "base", kEpoch + 1'000'000_ms), newest);
+      looks += done < all ? 1 : 0;
+      return true;
+    });
+    EXPECT_GT(looks, 3);
+    EXPECT_EQ(dataset->transforms()->edge(*dataset->transforms()->findFrame("base"))->samples, 2'000U);
+  }
+}
+
+TEST(Dataset, TheClockOfTheFirstTransformsGivesWayToThatOfAll) {
+  DatasetBuilder builder = drive(300, 0);
+  for (int i = 300; i < 2'000; ++i) {
+    builder.transform(kEpoch + i * 100_ms, "map", "base", translate(i, 0, 0), i * 100_ms);
+  }
+  const auto& dataset = builder.raw();
+  std::vector<double> seen;
+  dataset->takeTransforms([&](std::uint64_t, std::uint64_t) {
+    seen.push_back(xOf(*dataset, "base", kEpoch + 10_s));
+    return true;
+  });
+  EXPECT_DOUBLE_EQ(seen.front(), 100.0) << "by header stamps, as the first transforms have it";
+  EXPECT_EQ(dataset->tfClockInUse(), TfClock::Log);
+  EXPECT_DOUBLE_EQ(xOf(*dataset, "base", kEpoch + 10_s), 100.0);
+  EXPECT_DOUBLE_EQ(xOf(*dataset, "base", kEpoch + 100_s), 1'000.0);
+  EXPECT_FALSE(dataset->transforms()->tryLookupTransform("map", "base", {kEpoch - 1})) << "nothing of the old clock";
+  EXPECT_EQ(dataset->transforms()->edge(*dataset->transforms()->findFrame("base"))->samples, 2'000U);
+  EXPECT_EQ(builder.source().decodeCount(), 2'000U) << "nothing is decoded twice";
+  const auto problems = dataset->problems();
+  EXPECT_NE(findProblem(problems, "ClockMismatch"), nullptr);
+}
+
 TEST(Dataset, ReportsRefusedEdgesOncePerEdgeWithTheirCount) {
   DatasetBuilder builder = drive(20, 0);
   const auto at = [](int i) { return kEpoch + i * 100_ms + 1_ms; };

@@ -1,22 +1,43 @@
 #include "tools/ingest/chunk_cache.h"
 
+#include <iterator>
+
 namespace stillframe::ingest {
+
+std::shared_ptr<ChunkCache::Slot> ChunkCache::slotOf(std::uint64_t key) {
+  if (const auto known = index_.find(key); known != index_.end()) {
+    items_.splice(items_.begin(), items_, known->second);
+    return items_.front().slot;
+  }
+  // What somebody still reads is not unpacked anew; it stays with who does.
+  if (const auto gone = let_go_.find(key); gone != let_go_.end()) {
+    if (auto slot = gone->second.lock()) {
+      return slot;
+    }
+    let_go_.erase(gone);
+  }
+  items_.push_front({key, std::make_shared<Slot>(), 0});
+  index_[key] = items_.begin();
+  return items_.front().slot;
+}
+
+void ChunkCache::letGo(std::list<Item>& items, std::list<Item>::iterator item) {
+  std::erase_if(let_go_, [](const auto& entry) { return entry.second.expired(); });
+  let_go_[item->key] = item->slot;
+  bytes_ -= item->bytes;
+  index_.erase(item->key);
+  items.splice(items.begin(), items_, item);
+}
 
 std::shared_ptr<const ChunkCache::Chunk> ChunkCache::get(std::uint64_t key, const std::function<Chunk()>& unpack) {
   std::shared_ptr<Slot> slot;
   {
     const std::lock_guard lock(mutex_);
-    const auto known = index_.find(key);
-    if (known != index_.end()) {
-      items_.splice(items_.begin(), items_, known->second);
-    } else {
-      items_.push_front({key, std::make_shared<Slot>(), 0});
-      index_[key] = items_.begin();
-    }
-    slot = items_.front().slot;
+    slot = slotOf(key);
   }
   std::call_once(slot->once, [&] {
     slot->chunk = unpack();
+    std::list<Item> evicted;  // destroyed after the lock: a chunk may be large
     const std::size_t bytes = slot->chunk ? slot->chunk->size : 0;
     const std::lock_guard lock(mutex_);
     if (const auto item = index_.find(key); item != index_.end() && item->second->slot == slot) {
@@ -24,9 +45,7 @@ std::shared_ptr<const ChunkCache::Chunk> ChunkCache::get(std::uint64_t key, cons
       bytes_ += bytes;
     }
     while (bytes_ > max_bytes_ && items_.size() > 1) {
-      bytes_ -= items_.back().bytes;
-      index_.erase(items_.back().key);
-      items_.pop_back();
+      letGo(evicted, std::prev(items_.end()));
     }
   });
   return {slot, &slot->chunk};
@@ -36,9 +55,7 @@ void ChunkCache::drop(std::uint64_t key) {
   std::list<Item> dropped;  // destroyed after the lock: a chunk may be large
   const std::lock_guard lock(mutex_);
   if (const auto known = index_.find(key); known != index_.end()) {
-    bytes_ -= known->second->bytes;
-    dropped.splice(dropped.begin(), items_, known->second);
-    index_.erase(known);
+    letGo(dropped, known->second);
   }
 }
 

@@ -16,7 +16,8 @@ namespace stillframe::ingest {
 
 /// The chunks unpacked last, within a bound in bytes. Any thread; a chunk that several want at once is unpacked once.
 ///
-/// A chunk in use lives on after it was evicted. A chunk that could not be unpacked is remembered as such.
+/// A chunk in use lives on after it was evicted or dropped, and is found as long as it does. A chunk that could not be
+/// unpacked is remembered as such.
 class ChunkCache {
  public:
   using Chunk = std::expected<Buffer, std::string>;
@@ -38,9 +39,14 @@ class ChunkCache {
     std::size_t bytes = 0;
   };
 
+  /// With the lock held.
+  [[nodiscard]] std::shared_ptr<Slot> slotOf(std::uint64_t key);
+  void letGo(std::list<Item>& items, std::list<Item>::iterator item);
+
   std::mutex mutex_;       // guards everything below
   std::list<Item> items_;  // front = most recently used
   std::unordered_map<std::uint64_t, std::list<Item>::iterator> index_;
+  std::unordered_map<std::uint64_t, std::weak_ptr<Slot>> let_go_;  // may still be in use
   std::size_t bytes_ = 0;
   std::size_t max_bytes_;
 };

@@ -72,16 +72,16 @@ Buffer grown(Buffer old, std::size_t used, std::size_t size) {
 }
 
 template <typename Stream>
-std::expected<Buffer, std::string> unpack(std::span<const std::byte> packed, std::size_t claimed,
-                                          Completeness completeness) {
+std::expected<Buffer, std::string> unpack(const PackedBytes& packed, std::size_t claimed, Completeness completeness,
+                                          const std::function<void(std::span<const std::byte>)>& made) {
   Stream stream;
   if (stream.context == nullptr) {
     return std::unexpected("no memory for a decompressor");
   }
   // One byte more than claimed, so that a stream that holds more shows itself.
   const std::size_t limit = claimed + 1;
-  const bool is_plausible = claimed <= packed.size() * kPlausibleRatio;
-  std::size_t capacity = is_plausible ? limit : std::min<std::size_t>(limit, packed.size() * kPlausibleRatio + 4096);
+  const bool is_plausible = claimed <= packed.size * kPlausibleRatio;
+  std::size_t capacity = is_plausible ? limit : std::min<std::size_t>(limit, packed.size * kPlausibleRatio + 4096);
   Buffer out = grown({}, 0, capacity);
   std::size_t used = 0;
   std::size_t position = 0;
@@ -92,12 +92,14 @@ std::expected<Buffer, std::string> unpack(std::span<const std::byte> packed, std
       capacity = std::min(limit, capacity * 2);
       out = grown(std::move(out), used, capacity);
     }
-    const Step step = stream.step(packed.subspan(position), {out.data.get() + used, capacity - used});
+    const auto in = position < packed.size ? packed.from(position) : std::span<const std::byte>{};
+    const Step step = stream.step(in, {out.data.get() + used, capacity - used});
+    made({out.data.get() + used, step.produced});
     position += step.consumed;
     used += step.produced;
     is_finished = step.is_finished;
     error = step.error;
-    if (used == limit || (is_finished && position == packed.size()) || (step.consumed == 0 && step.produced == 0)) {
+    if (used == limit || (is_finished && position == packed.size) || (step.consumed == 0 && step.produced == 0)) {
       break;
     }
   }
@@ -162,29 +164,39 @@ std::uint64_t maxUnpackedBytes(Compression compression, std::uint64_t packed_byt
   return 0;
 }
 
-std::expected<Buffer, std::string> decompress(Compression compression, std::span<const std::byte> packed,
-                                              std::uint64_t claimed_bytes, Completeness completeness) {
-  const std::uint64_t limit = maxUnpackedBytes(compression, packed.size());
+std::expected<Buffer, std::string> decompress(Compression compression, const PackedBytes& packed,
+                                              std::uint64_t claimed_bytes, Completeness completeness,
+                                              const std::function<void(std::span<const std::byte>)>& made) {
+  const std::uint64_t limit = maxUnpackedBytes(compression, packed.size);
   const bool is_prefix = completeness == Completeness::Prefix;
   if (claimed_bytes > limit && !(is_prefix && claimed_bytes <= kMaxChunkBytes)) {
-    return std::unexpected(sentence("it claims ", claimed_bytes, " bytes, which ", packed.size(), " bytes of ",
+    return std::unexpected(sentence("it claims ", claimed_bytes, " bytes, which ", packed.size, " bytes of ",
                                     compression == Compression::None ? "uncompressed" : toString(compression),
                                     " data cannot hold"));
   }
   const auto claimed = static_cast<std::size_t>(is_prefix ? std::min(claimed_bytes, limit) : claimed_bytes);
   switch (compression) {
     case Compression::Lz4:
-      return unpack<Lz4Stream>(packed, claimed, completeness);
+      return unpack<Lz4Stream>(packed, claimed, completeness, made);
     case Compression::Zstd:
-      return unpack<ZstdStream>(packed, claimed, completeness);
+      return unpack<ZstdStream>(packed, claimed, completeness, made);
     case Compression::None:
       break;
   }
-  if (!is_prefix && packed.size() != claimed) {
-    return std::unexpected(sentence("it claims ", claimed, " bytes but holds ", packed.size()));
+  if (!is_prefix && packed.size != claimed) {
+    return std::unexpected(sentence("it claims ", claimed, " bytes but holds ", packed.size));
   }
-  Buffer out{std::make_unique_for_overwrite<std::byte[]>(claimed), claimed};
-  std::copy_n(packed.begin(), claimed, out.data.get());
+  Buffer out = makeBuffer(claimed);
+  for (std::size_t used = 0; used < claimed;) {
+    const auto in = packed.from(used);
+    if (in.empty()) {
+      return std::unexpected(sentence("it claims ", claimed, " bytes but holds ", used));
+    }
+    const std::size_t taken = std::min(in.size(), claimed - used);
+    std::copy_n(in.begin(), taken, out.data.get() + used);
+    made({out.data.get() + used, taken});
+    used += taken;
+  }
   return out;
 }
 

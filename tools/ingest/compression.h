@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <expected>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -42,13 +43,21 @@ enum class Completeness : std::uint8_t {
   Prefix,  ///< as much as can be unpacked of a chunk that was cut off
 };
 
-/// Unpacks a chunk that claims to hold `claimed_bytes`. Any thread.
+/// Packed bytes that need not be in memory all at once.
+struct PackedBytes {
+  std::size_t size = 0;
+  /// Some of those from a position on, valid until the next call; none where there are fewer than was said.
+  std::function<std::span<const std::byte>(std::size_t position)> from;
+};
+
+/// Unpacks a chunk that claims to hold `claimed_bytes`. Any thread. `made` is given each piece that comes out, once.
 ///
 /// A claim beyond maxUnpackedBytes() is refused at once; beneath it memory grows with what is really produced when the
 /// claim is more than 64 times what is packed. The error is half a sentence with the byte counts.
-[[nodiscard]] std::expected<Buffer, std::string> decompress(Compression compression, std::span<const std::byte> packed,
-                                                            std::uint64_t claimed_bytes,
-                                                            Completeness completeness = Completeness::Whole);
+[[nodiscard]] std::expected<Buffer, std::string> decompress(
+    Compression compression, const PackedBytes& packed, std::uint64_t claimed_bytes,
+    Completeness completeness = Completeness::Whole,
+    const std::function<void(std::span<const std::byte>)>& made = [](std::span<const std::byte>) {});
 
 [[nodiscard]] std::expected<std::vector<std::byte>, std::string> compress(Compression compression,
                                                                           std::span<const std::byte> bytes);

@@ -12,7 +12,8 @@ namespace stillframe::ingest {
 namespace {
 
 constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{256} << 20;  // of a record that is read whole
-constexpr std::size_t kChunkHeaderBytes = 40 + 64;                   // with room for the name of the compression
+constexpr std::size_t kWindowBytes = std::size_t{256} << 10;
+constexpr std::size_t kChunkHeaderBytes = 40 + 64;  // with room for the name of the compression
 
 std::uint32_t crcOfRange(const File& file, std::uint64_t begin, std::uint64_t end) {
   ForwardReader reader(file);
@@ -115,10 +116,11 @@ std::expected<McapFile::Index, std::string> McapFile::readSummary(const FooterRe
     const auto content = [&] { return reader.view(offset + kRecordHeaderBytes, std::min(length, kMaxRecordBytes)); };
     // Each parsed record is kept, or the whole summary is distrusted.
     const auto keep = [](auto record, auto&& store) {
-      if (record) {
+      const bool is_there = record.has_value();
+      if (is_there) {
         store(*std::move(record));
       }
-      return record.has_value();
+      return is_there;
     };
     bool is_good = true;
     switch (opcode) {
@@ -234,21 +236,29 @@ std::expected<Buffer, std::string> McapFile::unpack(const ChunkPlace& place) con
   if (header->uncompressed_size > maxUnpackedBytes(*compression, header->packed_size)) {
     return bad("it claims ", header->uncompressed_size, " bytes, more than ", header->packed_size, " bytes can hold");
   }
-  Buffer packed = makeBuffer(static_cast<std::size_t>(packed_size));
-  if (file_->read(place.offset + data_offset, {packed.data.get(), packed.size}) != packed.size) {
+  // A window of the packed bytes at a time, which stays in the cache of the processor, as what comes out does for its
+  // sum: a chunk may be larger than all caches, and the first touch of memory costs more than reading.
+  std::vector<std::byte> window(static_cast<std::size_t>(std::min<std::uint64_t>(packed_size, kWindowBytes)));
+  bool is_short = false;
+  const PackedBytes packed{static_cast<std::size_t>(packed_size), [&](std::size_t position) {
+                             const std::span<std::byte> wanted = std::span<std::byte>(window).first(
+                                 std::min(window.size(), static_cast<std::size_t>(packed_size) - position));
+                             const std::size_t got = file_->read(place.offset + data_offset + position, wanted);
+                             is_short |= got != wanted.size();
+                             return std::span<const std::byte>(wanted.first(got));
+                           }};
+  std::uint32_t crc = 0;
+  const bool is_checked = !place.is_cut && header->uncompressed_crc != 0;
+  auto records = decompress(*compression, packed, header->uncompressed_size,
+                            place.is_cut ? Completeness::Prefix : Completeness::Whole,
+                            [&](std::span<const std::byte> made) { crc = is_checked ? crc32(made, crc) : 0; });
+  if (is_short) {
     return bad("the file became shorter");
-  }
-  std::expected<Buffer, std::string> records;
-  if (*compression == Compression::None && !place.is_cut && packed.size == header->uncompressed_size) {
-    records = std::move(packed);
-  } else {
-    records = decompress(*compression, packed.bytes(), header->uncompressed_size,
-                         place.is_cut ? Completeness::Prefix : Completeness::Whole);
   }
   if (!records) {
     return bad(records.error());
   }
-  if (!place.is_cut && header->uncompressed_crc != 0 && crc32(records->bytes()) != header->uncompressed_crc) {
+  if (is_checked && crc != header->uncompressed_crc) {
     return bad("its CRC is wrong");
   }
   return records;

@@ -9,10 +9,9 @@
 #include <span>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
 #include "nodes/points/copy_points.h"
 #include "nodes/points/read_value.h"
+#include "scenegraph/raster/background_tasks.h"
 
 namespace stillframe::nodes {
 namespace {
@@ -215,11 +214,7 @@ PartResult convertParts(const CloudLayout& layout, std::span<const std::byte> da
     result.low = progress.low;
     result.high = progress.high;
   };
-  if (parts.size() == 1) {
-    convertPart(0);
-  } else {
-    tbb::parallel_for(std::size_t{0}, parts.size(), convertPart);
-  }
+  scenegraph::runInBackground(parts.size(), convertPart);
   return join(parts, results, layout, out);
 }
 

@@ -46,14 +46,34 @@ std::size_t PointStage::startAnew(const PointCollection& points, int width_px, i
   return drawer_->begin(points, width_px, height_px);
 }
 
-std::uint32_t PointStage::affordableEnd(const PointLimits& limits) const {
+std::uint32_t PointStage::affordableEnd(double points, std::uint32_t most_passes) const {
+  return std::min(std::max(in_view_.passesFor(points, passes_, most_passes), passes_ + 1), most_passes);
+}
+
+void PointStage::drawPasses(const PointLimits& limits, Clock::time_point start) {
+  constexpr double kLeast = 0.25;  // of the budget, whatever else a frame needs
+  constexpr double kShort = 0.3;   // of it: the rest is drawn in one go
+  constexpr double kNothing = 0.05;
   // Where the rest of a frame takes all of its time, as on a busy machine, the picture still comes to an end.
-  constexpr double kLeast = 0.25;
   constexpr double kMostFrames = 64.0;
   const double budget_ms = std::max(limits.budget_ms - resolve_ms_, kLeast * limits.budget_ms);
-  const double least = passes_ == 0 ? 0.0 : static_cast<double>(in_view_.count()) / kMostFrames;
-  const double points = std::max(budget_ms * points_per_ms_, least);
-  return std::min(std::max(in_view_.passesFor(points, passes_, limits.passes), passes_ + 1), limits.passes);
+  double least = passes_ == 0 ? 0.0 : static_cast<double>(in_view_.count()) / kMostFrames;
+  const auto leftMs = [&] { return std::max(budget_ms - millisecondsSince(start), kNothing * budget_ms); };
+  bool is_last = false;
+  do {
+    // Half of what time is left for, and another look at the clock: the cores may have other work than they had.
+    const double left_ms = leftMs();
+    is_last = left_ms <= kShort * budget_ms;
+    const std::uint32_t end =
+        affordableEnd(std::max((is_last ? 1.0 : 0.5) * left_ms * points_per_ms_, least), limits.passes);
+    least = 0.0;
+    const bool is_first = passes_ == 0;
+    const auto before = Clock::now();
+    drawer_->draw({passes_, end});
+    const double drawn = in_view_.drawnBefore(end) - in_view_.drawnBefore(passes_);
+    passes_ = end;
+    noteRate(drawn / std::max(millisecondsSince(before), 1e-3), drawn, is_first);
+  } while (!is_last && passes_ < limits.passes && leftMs() > kNothing * budget_ms);
 }
 
 void PointStage::noteRate(double points_per_ms, double points, bool is_first) {
@@ -81,17 +101,8 @@ PointProgress PointStage::draw(PointCollection points, int width_px, int height_
   progress.in_view = in_view_.count();
   const bool is_drawing = passes_ < limits.passes;
   if (is_drawing) {
-    PointLimits left = limits;
-    left.budget_ms -= millisecondsSince(start);  // for making room for the picture, some pixels a nanosecond
-    const std::uint32_t end = affordableEnd(left);
-    const bool is_first = passes_ == 0;
-    const auto before = Clock::now();
-    drawer_->draw({passes_, end});
-    const double took_ms = millisecondsSince(before);
+    drawPasses(limits, start);  // the time includes making room for the picture, some pixels a nanosecond
     progress.raster_ms = millisecondsSince(start);
-    const double drawn = in_view_.drawnBefore(end) - in_view_.drawnBefore(passes_);
-    passes_ = end;
-    noteRate(drawn / std::max(took_ms, 1e-3), drawn, is_first);
   }
   const bool is_whole = passes_ == kPassesOfBothLaps || in_view_.count() == 0;
   progress.share = is_whole ? 1.0 : in_view_.drawnBefore(passes_) / static_cast<double>(in_view_.count());

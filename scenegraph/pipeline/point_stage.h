@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -60,7 +61,8 @@ class PointStage {
 
  private:
   [[nodiscard]] std::size_t startAnew(const PointCollection& points, int width_px, int height_px);
-  [[nodiscard]] std::uint32_t affordableEnd(const PointLimits& limits) const;
+  [[nodiscard]] std::uint32_t affordableEnd(double points, std::uint32_t most_passes) const;
+  void drawPasses(const PointLimits& limits, std::chrono::steady_clock::time_point start);
   void noteRate(double points_per_ms, double points, bool is_first);
 
   std::unique_ptr<PointDrawer> drawer_;

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "scenegraph/raster/background_tasks.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -49,13 +48,13 @@ std::vector<PointBox> boxesOf(std::span<const float> positions) {
   constexpr std::size_t kFloats = std::size_t{3} * kPassesOfSample;
   constexpr std::size_t kGroupsATask = 128;
   std::vector<PointBox> boxes((positions.size() + kFloats - 1) / kFloats);
-  const auto find = [&](const tbb::blocked_range<std::size_t>& groups) {
-    for (std::size_t group = groups.begin(); group < groups.end(); ++group) {
+  runInBackground((boxes.size() + kGroupsATask - 1) / kGroupsATask, [&](std::size_t task) {
+    const std::size_t end = std::min((task + 1) * kGroupsATask, boxes.size());
+    for (std::size_t group = task * kGroupsATask; group < end; ++group) {
       const std::size_t first = group * kFloats;
       boxes[group] = boxOf(&positions[first], std::min(kFloats, positions.size() - first));
     }
-  };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, boxes.size(), kGroupsATask), find);
+  });
   return boxes;
 }
 

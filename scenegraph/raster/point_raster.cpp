@@ -258,7 +258,8 @@ std::size_t drawPiece(const Points& points, const Piece& piece, std::uint32_t be
 }  // namespace
 
 struct PointRaster::Threads {
-  explicit Threads(unsigned count) : arena(count == 0 ? tbb::task_arena::automatic : static_cast<int>(count)) {}
+  explicit Threads(unsigned count)
+      : arena(count == 0 ? tbb::task_arena::automatic : static_cast<int>(count), 1, tbb::task_arena::priority::high) {}
   tbb::task_arena arena;
 };
 

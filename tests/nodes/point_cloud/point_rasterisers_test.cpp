@@ -258,6 +258,39 @@ TEST_F(PointStageSteps, GoOnWhereTimeRanOutUntilThePictureIsWhole) {
   EXPECT_EQ(colors(stepwise), colors(whole));
 }
 
+/// Draws nothing, at once, and notes what it was asked for.
+class NotingDrawer final : public scenegraph::PointDrawer {
+ public:
+  explicit NotingDrawer(std::vector<scenegraph::PassRange>& asked) : asked_(asked) {}
+  std::size_t begin(const scenegraph::PointCollection& /*points*/, int /*width*/, int /*height*/) override { return 0; }
+  void draw(const scenegraph::PassRange& passes) override { asked_.push_back(passes); }
+  std::size_t resolve(const scenegraph::PointShading& /*shading*/) override { return 0; }
+  [[nodiscard]] const char* name() const noexcept override { return "noting"; }
+  [[nodiscard]] osg::Texture2D& colorTexture() noexcept override { return *color_; }
+  [[nodiscard]] osg::Texture2D& depthTexture() noexcept override { return *depth_; }
+
+ private:
+  std::vector<scenegraph::PassRange>& asked_;
+  osg::ref_ptr<osg::Texture2D> color_ = scenegraph::makePointTexture(GL_RGBA16F_ARB);
+  osg::ref_ptr<osg::Texture2D> depth_ = scenegraph::makePointTexture(GL_R32F);
+};
+
+TEST_F(PointStageSteps, LookAtTheClockAgainWhereTimeDoesNotSufficeForAll) {
+  std::vector<scenegraph::PassRange> asked;
+  scenegraph::PointStage stage(std::make_unique<NotingDrawer>(asked));
+  (void)step(stage, 1.0);  // half of what it is guessed to suffice for, then as much more as that turned out to take
+  ASSERT_GT(asked.size(), 1U);
+  EXPECT_LE(asked.front().end, 0.6 * scenegraph::kPassesOfBothLaps);
+  for (std::size_t i = 1; i < asked.size(); ++i) {
+    EXPECT_EQ(asked[i].first, asked[i - 1].end);
+    EXPECT_LT(asked[i].first, asked[i].end);
+  }
+  asked.clear();
+  (void)step(stage, std::numeric_limits<double>::infinity(), 1.0);
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_EQ(asked.front().end, scenegraph::kPassesOfBothLaps);
+}
+
 TEST_F(PointStageSteps, ComeToAnEndWithoutAnyTime) {
   scenegraph::PointStage stage(2);
   int steps = 0;

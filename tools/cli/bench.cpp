@@ -30,6 +30,7 @@ struct BenchOptions {
   std::vector<std::string> only;
   std::vector<std::string> table;
   std::string svg;
+  bool is_open = false;
   bool is_scrub = false;
   bool is_json = false;
 };
@@ -236,11 +237,13 @@ Result<void> runBench(const BenchOptions& options) {
     return {};
   }
   if (!options.svg.empty() &&
-      (options.is_scrub || (!options.only.empty() && std::ranges::find(options.only, kViews) == options.only.end()))) {
+      (options.is_scrub || options.is_open ||
+       (!options.only.empty() && std::ranges::find(options.only, kViews) == options.only.end()))) {
     return usageError("--svg draws the curves of several views: measure them, with --only views");
   }
   const auto isChosen = [&](const char* name) {
-    return !options.is_scrub && (options.only.empty() || std::ranges::find(options.only, name) != options.only.end());
+    return !options.is_scrub && !options.is_open &&
+           (options.only.empty() || std::ranges::find(options.only, name) != options.only.end());
   };
   std::vector<BenchResult> results;
   Machine machine{.processor = processorName(),
@@ -248,10 +251,15 @@ Result<void> runBench(const BenchOptions& options) {
                   .renderer = "",
                   .memcpy_mb_per_s = memcpyMbPerS(),
                   .version = STILLFRAME_VERSION " (" STILLFRAME_COMMIT ")"};
-  if (options.is_scrub) {
-    if (options.recording.file.empty()) {
-      return usageError("--scrub drags through a recording: name one");
+  if ((options.is_scrub || options.is_open) && options.recording.file.empty()) {
+    return usageError("--open and --scrub open a recording: name one");
+  }
+  if (options.is_open) {
+    if (const auto done = benchOpen(options.recording, results); !done) {
+      return done;
     }
+  }
+  if (options.is_scrub) {
     if (const auto done = benchScrub(options.recording, results); !done) {
       return done;
     }
@@ -306,7 +314,8 @@ Command addBenchCommand(CLI::App& app) {
   app.add_option("--only", options->only, "Measure just these; may be repeated")
       ->check(CLI::IsMember(names))
       ->allow_extra_args(false);
-  app.add_flag("--scrub", options->is_scrub, "Drag the slider of FILE there and back, and nothing else");
+  app.add_flag("--open", options->is_open, "Open FILE again and again, beside reading what its first picture needs");
+  app.add_flag("--scrub", options->is_scrub, "Drag the slider of FILE there and back");
   app.add_option("--svg", options->svg, "Draw memory and time over the number of views into this file");
   app.add_flag("--json", options->is_json, "One JSON object instead of a table");
   app.add_option("--table", options->table,

@@ -80,8 +80,10 @@ void benchPoints(std::vector<BenchResult>& results);
 /// Ticks of 1000 frames with 200 layers in 4 views.
 void benchTicks(std::vector<BenchResult>& results);
 /// The slider of a recording dragged there and back, twice: from a position to its picture, and what keeps the thread
-/// of the window. Opening it, beside reading what that needs.
+/// of the window. Memory of the data at rest.
 [[nodiscard]] Result<void> benchScrub(const RecordingOptions& options, std::vector<BenchResult>& results);
+/// Opening a recording as the window does, to the first picture of its clouds, beside reading what that needs.
+[[nodiscard]] Result<void> benchOpen(const RecordingOptions& options, std::vector<BenchResult>& results);
 /// Memory and time of 1, 2 and 4 views of one recording, each in a fixed frame of its own.
 [[nodiscard]] Result<void> benchViews(const RecordingOptions& options, std::vector<BenchResult>& results);
 /// What benchViews() appended as curves over the number of views, memory and time, each to that of one view; an SVG.

@@ -25,16 +25,16 @@ struct VoxelScene {
   }
   /// Microseconds of a tick at which nothing is new but the time, and of one with another threshold.
   double tickUs(bool with_setting) {
-    constexpr int kTicks = 1000;
+    constexpr int kTicksARun = 1000;
     const auto run = [&] {
-      for (int i = 0; i < kTicks; ++i) {
+      for (int i = 0; i < kTicksARun; ++i) {
         if (with_setting) {
           (void)layer->applySettings({{"range_max", std::to_string(100 + i)}, {"range_mode", "manual"}});
         }
         scene.update(tf::TimePoint{++time_ns});
       }
     };
-    return 1e6 * bestSecondsOf(5, run) / kTicks;
+    return 1e6 * bestSecondsOf(5, run) / kTicksARun;
   }
 
   std::unique_ptr<scenegraph::Executor> executor = scenegraph::makeSynchronousExecutor();

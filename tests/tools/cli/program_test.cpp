@@ -63,6 +63,7 @@ TEST(Program, RefusesWhatItDoesNotUnderstand) {
       {"sample", "a.mcap", "--seconds", "1e9"},
       {"accuracy", "luck"},
       {"accuracy", "tf", "a.mcap"},
+      {"bench", "--open"},
       {"bench", "--scrub"},
       {"bench", "--only", "poses", "--svg", "views.svg"},
       {"bench", "--only", "luck"},

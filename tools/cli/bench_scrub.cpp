@@ -9,13 +9,16 @@
 #include "scenegraph/stopwatch.h"
 #include "tools/cli/bench_results.h"
 #include "tools/cli/bench_view.h"
+#include "tools/cli/temporary_sample.h"
+#include "tools/sample/sample.h"
 
 namespace stillframe::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kPositions = 40;           // of the slider, over the recording
+constexpr int kPositions = 40;  // of the slider, over the recording
+constexpr double kMib = 1024.0 * 1024.0;
 constexpr double kLongestRoundS = 60.0;  // there and back; a shorter way where that is not enough
 
 void report(std::vector<BenchResult>& results, const std::string& name, const std::vector<BenchStep>& steps) {
@@ -39,9 +42,11 @@ void report(std::vector<BenchResult>& results, const std::string& name, const st
 
 constexpr int kMoreViews = 4;
 
-/// What the heap grows by when four more views draw that instant, each with a context of its own.
-Result<double> heapOfMoreViewsMib(const std::shared_ptr<scenegraph::Dataset>& dataset, tf::TimePoint time) {
-  const double before_mib = heapMib();
+/// What the heap grows by for each of four more views of that instant, which have contexts of their own, beside what
+/// the dataset has converted meanwhile.
+Result<double> heapOfFurtherViewMib(const std::shared_ptr<scenegraph::Dataset>& dataset, tf::TimePoint time) {
+  const auto heapOfViews = [&] { return heapMib() - static_cast<double>(dataset->cache().bytes()) / kMib; };
+  const double before_mib = heapOfViews();
   std::vector<std::unique_ptr<BenchView>> views;
   for (int i = 0; i < kMoreViews; ++i) {
     auto renderer = scenegraph::OffscreenRenderer::create();
@@ -53,31 +58,51 @@ Result<double> heapOfMoreViewsMib(const std::shared_ptr<scenegraph::Dataset>& da
       return std::unexpected(drawn.error());
     }
   }
-  return heapMib() - before_mib;
+  return (heapOfViews() - before_mib) / kMoreViews;
 }
 
-/// Memory of the data at rest: in all, and in how many views it is shown. A context whose OpenGL is software keeps its
-/// textures and programs on the heap too, whatever is drawn: what views of nothing take is told apart.
+/// The same of small clouds, of just enough points to be drawn by the CPU, so that it is the view that takes it, not
+/// its points.
+Result<double> heapOfFewPointsMib() {
+  const TemporarySample sample;
+  if (const auto made = sample::writeSample(sample.path(), {.duration_ns = 200'000'000, .lidar_points = 100'000});
+      !made) {
+    return failure(made.error().message);
+  }
+  RecordingOptions options;
+  options.file = sample.path().string();
+  const auto recording = openRecording(options);
+  if (!recording) {
+    return std::unexpected(recording.error());
+  }
+  const auto time = firstCloudInstant((*recording)->dataset()->store());
+  return heapOfFurtherViewMib((*recording)->dataset(), time.value_or(tf::TimePoint{}));
+}
+
+/// Memory of the data at rest: in all, and for further views. A view has the pixels of its picture, ours and, where
+/// OpenGL is software, its textures and programs, however many points there are: that is told apart.
 Result<void> reportHeap(const std::shared_ptr<scenegraph::Dataset>& dataset, tf::TimePoint time, double one_view_mib,
                         std::vector<BenchResult>& results) {
-  const double converted_mib = static_cast<double>(dataset->cache().bytes()) / (1024.0 * 1024.0);
-  const auto empty_mib = heapOfMoreViewsMib(std::make_shared<scenegraph::Dataset>("nothing"), time);
-  if (!empty_mib) {
-    return std::unexpected(empty_mib.error());
+  const double converted_mib = static_cast<double>(dataset->cache().bytes()) / kMib;
+  const auto nothing_mib = heapOfFurtherViewMib(std::make_shared<scenegraph::Dataset>("nothing"), time);
+  const auto few_mib = heapOfFewPointsMib();
+  const auto clouds_mib = heapOfFurtherViewMib(dataset, time);
+  for (const auto* const heap : {&nothing_mib, &few_mib, &clouds_mib}) {
+    if (!*heap) {
+      return std::unexpected(heap->error());
+    }
   }
-  const auto more_mib = heapOfMoreViewsMib(dataset, time);
-  if (!more_mib) {
-    return std::unexpected(more_mib.error());
-  }
-  const double ours_mib = one_view_mib + *more_mib - *empty_mib;
+  const double points_mib = kMoreViews * (*clouds_mib - *few_mib);
   results.push_back({"converted clouds of the first picture", converted_mib, "MiB"});
   results.push_back({"heap of data, scene and picture", one_view_mib, "MiB"});
   results.push_back({"heap / converted clouds", one_view_mib / converted_mib, "", 1.5});
-  results.push_back({"heap of a further view, of nothing: its OpenGL", *empty_mib / kMoreViews, "MiB"});
+  results.push_back({"a further view: its OpenGL, of nothing", *nothing_mib, "MiB"});
   results.push_back(
-      {"heap of a further view of the clouds, beyond that", (*more_mib - *empty_mib) / kMoreViews, "MiB"});
-  results.push_back({"heap / converted clouds, 4 views more, without their OpenGL", ours_mib / converted_mib, "", 1.5});
-  results.push_back({"heap / converted clouds, 4 views more, with it", (one_view_mib + *more_mib) / converted_mib, ""});
+      {"a further view: pixels of points, in our memory and in OpenGL's", *few_mib - *nothing_mib, "MiB"});
+  results.push_back({"a further view: the clouds", *clouds_mib - *few_mib, "MiB"});
+  results.push_back({"heap / converted clouds, 4 views more", (one_view_mib + points_mib) / converted_mib, "", 1.5});
+  results.push_back({"heap / converted clouds, 4 views more, with their pixels and OpenGL",
+                     (one_view_mib + kMoreViews * *clouds_mib) / converted_mib, ""});
   return {};
 }
 

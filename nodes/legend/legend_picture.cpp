@@ -23,6 +23,13 @@ constexpr double kNumbersTop = kBarTop + kBar + 2.0;
 constexpr double kEntry = kNumbersTop + kLine;
 constexpr double kCorner = 4.0;
 
+// What legends may take of a picture.
+constexpr double kLeastPicture = 320.0;  // of its width, for there to be room beside them
+constexpr double kSmallest = 0.75;       // of their own size, and of a pixel of the design: texts stay legible
+constexpr double kMostOfWidth = 1.0 / 3.0;
+constexpr double kMostOfHeight = 0.4;
+constexpr double kMostOfArea = 1.0 / 6.0;
+
 constexpr PixelColor kCard{18, 20, 24, 205};
 constexpr PixelColor kText{240, 240, 240, 255};
 constexpr PixelColor kDim{176, 180, 188, 255};
@@ -148,6 +155,19 @@ LegendPicture drawLegends(std::span<const LegendEntry> entries, double scale, in
     card.note("and " + std::to_string(entries.size() - count) + " more", top - kGap);
   }
   return {canvas.width(), canvas.height(), canvas.takePixels()};
+}
+
+LegendPicture drawFittingLegends(std::span<const LegendEntry> entries, double scale, int width_px, int height_px) {
+  if (!(width_px >= kLeastPicture * scale)) {
+    return {};
+  }
+  const double least = std::min(scale, std::max(kSmallest * scale, kSmallest));
+  const auto draw = [&](double fitting) {
+    const double most = std::min(kMostOfHeight * height_px, kMostOfArea * width_px * height_px / (kWidth * fitting));
+    return drawLegends(entries, fitting, static_cast<int>(most));
+  };
+  LegendPicture picture = draw(std::clamp(kMostOfWidth * width_px / kWidth, least, scale));
+  return picture.isEmpty() ? draw(least) : picture;
 }
 
 }  // namespace stillframe::nodes

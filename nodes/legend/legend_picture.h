@@ -36,6 +36,11 @@ struct LegendPicture {
 /// design, 1 on an ordinary display. GUI thread (fonts are OSG's); about a millisecond.
 [[nodiscard]] LegendPicture drawLegends(std::span<const LegendEntry> entries, double scale, int most_px);
 
+/// The legends of a picture of that size: they shrink with it to a third of its width, to three quarters of their size
+/// at the least, and take 40 % of its height and a sixth of its area at most. Empty where it is too narrow for any.
+[[nodiscard]] LegendPicture drawFittingLegends(std::span<const LegendEntry> entries, double scale, int width_px,
+                                               int height_px);
+
 /// "12.5", "1.234e+07": as many digits as tell values apart that lie a hundredth of the range from each other.
 [[nodiscard]] std::string legendNumber(double value, double low, double high);
 

@@ -12,7 +12,6 @@
 namespace stillframe::nodes {
 namespace {
 
-constexpr double kMostOfPicture = 0.9;   // of its height, for legends
 constexpr double kDesignHeight = 720.0;  // of a picture in which things have their own size
 
 // In units of the design: pixels at scale 1.
@@ -89,7 +88,7 @@ void PictureOverlay::lay(const LegendPicture& above, int left, int top) {
 }
 
 void PictureOverlay::addLegends(std::span<const LegendEntry> entries) {
-  const LegendPicture legend = drawLegends(entries, scale_, static_cast<int>(height_ * kMostOfPicture));
+  const LegendPicture legend = drawFittingLegends(entries, scale_, width_, height_);
   const int margin = static_cast<int>(std::lround(kMargin * scale_));
   const int left = width_ - legend.width - margin;
   const int top = height_ - legend.height - margin;

@@ -8,8 +8,6 @@ namespace stillframe::viewer {
 namespace {
 
 constexpr int kMargin = 10;
-constexpr double kMostOfView = 0.5;  // of its height
-constexpr int kLeastWidth = 320;     // of a view that has room for a legend beside its picture
 
 }  // namespace
 
@@ -38,10 +36,8 @@ void LegendOverlay::setEnabledByUser(bool enabled) {
 void LegendOverlay::draw() {
   const QWidget& view = *parentWidget();
   const double ratio = devicePixelRatioF();
-  nodes::LegendPicture picture;
-  if (view.width() >= kLeastWidth) {
-    picture = nodes::drawLegends(entries_, ratio, static_cast<int>(view.height() * kMostOfView * ratio));
-  }
+  const QSize size_px = view.size() * ratio;
+  const nodes::LegendPicture picture = nodes::drawFittingLegends(entries_, ratio, size_px.width(), size_px.height());
   setVisible(!picture.isEmpty());
   if (picture.isEmpty()) {
     return;

@@ -86,6 +86,27 @@ TEST(LegendPicture, ScalesWithTheDisplay) {
   EXPECT_TRUE(drawLegends(std::vector{blueToRed()}, std::nan(""), 1000).isEmpty());
 }
 
+TEST(LegendPicture, LeavesMostOfAPictureFreeHoweverSmallItIs) {
+  const std::vector<LegendEntry> many(8, blueToRed());
+  for (const double scale : {1.0, 1.5, 2.0}) {
+    for (const auto& [width, height] :
+         {std::pair{320, 240}, {330, 900}, {580, 690}, {1000, 200}, {1280, 800}, {3840, 2160}}) {
+      const double width_px = width * scale;
+      const double height_px = height * scale;
+      const LegendPicture picture =
+          drawFittingLegends(many, scale, static_cast<int>(width_px), static_cast<int>(height_px));
+      ASSERT_FALSE(picture.isEmpty()) << width << " x " << height;
+      EXPECT_LE(picture.height, 0.4 * height_px);
+      EXPECT_LE(picture.width, std::max(width_px / 3.0, 0.75 * 216.0 * scale) + 1.0);
+      EXPECT_LE(picture.width * picture.height, width_px * height_px / 6.0 + picture.height);
+    }
+    EXPECT_TRUE(drawFittingLegends(many, scale, static_cast<int>(310 * scale), 1000).isEmpty());
+  }
+  EXPECT_EQ(drawFittingLegends(many, 1.0, 1280, 800).width, 216) << "its own size where there is room";
+  EXPECT_EQ(drawFittingLegends(many, 0.75, 320, 240).width, 162) << "no text is smaller than can be read";
+  EXPECT_TRUE(drawFittingLegends(many, std::nan(""), 320, 240).isEmpty());
+}
+
 TEST(LegendPicture, StandsWhateverTheRangeIs) {
   const double huge = std::numeric_limits<double>::max();
   for (const auto& [low, high] : {std::pair{-huge, huge},

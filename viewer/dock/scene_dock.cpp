@@ -13,6 +13,7 @@
 #include "viewer/time/time_bar.h"
 #include "viewer/view/view_panel.h"
 #include "viewer/widget/scene_widget.h"
+#include "viewer/window/keyboard_guard.h"
 #include "viewer/window/message_bar.h"
 
 namespace stillframe::viewer {
@@ -55,6 +56,7 @@ SceneDock::SceneDock(DockContext& context, QWidget* parent) : QWidget(parent), c
   bind(Qt::Key_Left, [this] { step(-1); });
   bind(Qt::Key_Right, [this] { step(1); });
   bind(Qt::Key_Space, [this] { Q_EMIT playRequested(); });
+  makeReachable(*this);
 }
 
 SceneDock::~SceneDock() = default;

@@ -10,6 +10,7 @@
 
 #include "scenegraph/layer_cost.h"
 #include "scenegraph/layer_list.h"
+#include "viewer/layers/editor_keys.h"
 #include "viewer/layers/histogram_feed.h"
 #include "viewer/layers/layer_delegate.h"
 #include "viewer/layers/range_editor.h"
@@ -84,6 +85,7 @@ LayerTree::LayerTree(QWidget* parent) : QTreeWidget(parent) {
   setTextElideMode(Qt::ElideMiddle);
   setWordWrap(true);
   setItemDelegate(new LayerDelegate(*this));
+  new EditorKeys(*this);
   connect(header(), &QHeaderView::sectionResized, this, &LayerTree::scheduleDelayedItemsLayout);
   connect(this, &QTreeWidget::itemChanged, this, &LayerTree::onItemChanged);
   connect(this, &QTreeWidget::itemExpanded, this, [this](const QTreeWidgetItem* opened) {

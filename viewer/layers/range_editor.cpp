@@ -54,8 +54,12 @@ RangeEditor::RangeEditor(const std::vector<scenegraph::SettingSpec>& specs, QWid
   ends->addWidget(low_);
   ends->addWidget(high_);
   layout->addLayout(ends);
-  setFocusProxy(mode_);
-  new EditorFilter(*this);
+  connect(new EditorFilter(*this), &EditorFilter::cancelled, this, [this] {
+    for (NumberBox* const box : {low_, high_}) {
+      const QSignalBlocker blocker(box);
+      box->setValue(box->value());  // writes it over what is half typed
+    }
+  });
   connect(mode_, &QComboBox::textActivated, this, &RangeEditor::chooseMode);
   connect(low_, &QDoubleSpinBox::valueChanged, this, [this](double low) { setEnds(low, high_->value()); });
   connect(high_, &QDoubleSpinBox::valueChanged, this, [this](double high) { setEnds(low_->value(), high); });

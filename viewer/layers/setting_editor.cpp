@@ -12,6 +12,7 @@
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QSpinBox>
+#include <QTreeWidget>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -47,6 +48,15 @@ double roundedTo(double value, double range) {
   return QString::number(std::round(value / unit) * unit, 'g', 12).toDouble();
 }
 
+QTreeWidget* treeAround(const QWidget& part) {
+  for (QWidget* above = part.parentWidget(); above != nullptr && !above->isWindow(); above = above->parentWidget()) {
+    if (auto* const tree = qobject_cast<QTreeWidget*>(above)) {
+      return tree;
+    }
+  }
+  return nullptr;
+}
+
 QColor toQColor(const scenegraph::Color& color) { return QColor::fromRgbF(color.r, color.g, color.b, color.a); }
 
 }  // namespace
@@ -69,6 +79,19 @@ bool EditorFilter::eventFilter(QObject* watched, QEvent* event) {
   const auto* line = qobject_cast<QLineEdit*>(watched);
   if (qobject_cast<QAbstractSpinBox*>(watched) != nullptr) {
     line = watched->findChild<QLineEdit*>();  // which the box hands its events to by itself
+  }
+  const auto* const pressed = event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride
+                                  ? static_cast<QKeyEvent*>(event)
+                                  : nullptr;
+  if (QTreeWidget* const tree = treeAround(*widget); tree != nullptr && pressed != nullptr &&
+                                                     pressed->key() == Qt::Key_Escape &&
+                                                     pressed->modifiers() == Qt::NoModifier) {
+    if (event->type() == QEvent::KeyPress) {
+      Q_EMIT cancelled();
+      tree->setFocus(Qt::OtherFocusReason);
+    }
+    event->accept();
+    return true;
   }
   if (event->type() == QEvent::ShortcutOverride && line != nullptr && !line->isModified()) {
     auto* key = static_cast<QKeyEvent*>(event);
@@ -104,8 +127,7 @@ SettingEditor::SettingEditor(const SettingSpec& spec, const std::string& text, Q
   layout->setContentsMargins(0, 1, 4, 1);
   layout->addWidget(editor, 1);
   setToolTip(QString::fromStdString(spec_.help));
-  setFocusProxy(editor);
-  new EditorFilter(*this);
+  connect(new EditorFilter(*this), &EditorFilter::cancelled, this, &SettingEditor::forgetTyped);
   show_(text_);
 }
 
@@ -114,6 +136,13 @@ void SettingEditor::setText(const std::string& text) {
     return;
   }
   text_ = text;
+  show_(text_);
+}
+
+void SettingEditor::forgetTyped() {
+  for (QLineEdit* const line : findChildren<QLineEdit*>()) {
+    line->setModified(false);
+  }
   show_(text_);
 }
 
@@ -226,7 +255,7 @@ QWidget* SettingEditor::makeChoice() {
 QWidget* SettingEditor::makeText() {
   auto* edit = new QLineEdit(this);
   show_ = [edit](const std::string& text) {
-    if (!edit->hasFocus()) {
+    if (!(edit->hasFocus() && edit->isModified())) {
       edit->setText(QString::fromStdString(text));
     }
   };

@@ -9,13 +9,18 @@
 
 namespace stillframe::viewer {
 
-/// Keeps what is within an editor from two surprises: a wheel that scrolls the panel does not change what happens to
-/// pass beneath it, and where no text is half typed, undo is that of the view. Belongs to the editor. GUI thread.
+/// Keeps what is within an editor from three surprises: a wheel that scrolls the panel does not change what happens to
+/// pass beneath it, where no text is half typed, undo is that of the view, and Escape forgets what is half typed and
+/// goes back to the tree that the editor is in. Belongs to the editor. GUI thread.
 class EditorFilter : public QObject {
   Q_OBJECT
 
  public:
   explicit EditorFilter(QWidget& editor);
+
+ Q_SIGNALS:
+  /// What is half typed is to be as it was; the focus moves on next.
+  void cancelled();
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -45,6 +50,7 @@ class SettingEditor : public QWidget {
   QWidget* makeText();
   QWidget* makeColor();
   void emitEdited(const std::string& text);
+  void forgetTyped();
 
   scenegraph::SettingSpec spec_;
   std::string text_;

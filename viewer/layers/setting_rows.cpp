@@ -4,6 +4,7 @@
 
 #include "viewer/layers/range_editor.h"
 #include "viewer/layers/setting_editor.h"
+#include "viewer/widget/tab_order.h"
 
 namespace stillframe::viewer {
 
@@ -56,6 +57,7 @@ void SettingRows::build() {
     group.item->setText(0, QStringLiteral("%1 (%2)").arg(QString::fromStdString(name)).arg(group.things.size()));
     group.item->setExpanded(was_open[name]);
   }
+  orderTabs(tree_);
 }
 
 QTreeWidgetItem* SettingRows::addRow(QTreeWidgetItem& parent, const std::string& label, const std::string& help) {

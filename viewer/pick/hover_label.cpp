@@ -43,7 +43,7 @@ void HoverLabel::showAt(QPointF cursor) {
 }
 
 bool HoverLabel::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Hide || event->type() == QEvent::WindowDeactivate) {
+  if (event->type() == QEvent::Hide || event->type() == QEvent::WindowDeactivate || event->type() == QEvent::FocusOut) {
     hide();
   }
   return QLabel::eventFilter(watched, event);

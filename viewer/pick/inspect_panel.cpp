@@ -50,7 +50,9 @@ void dropRowsFrom(QTreeWidget& table, int count) {
 
 InspectPanel::InspectPanel(QWidget* parent)
     : QWidget(parent),
-      hint_(new QLabel(tr("Click something in the view. Shift+click a second point to measure."), this)),
+      hint_(new QLabel(tr("Click something in the view, or press P for what is in its middle. With Shift, a second "
+                          "point to measure to."),
+                       this)),
       rows_(makeTable(this, QStringLiteral("pickRows"), {tr("Name"), tr("Value")})),
       measurements_(makeTable(this, QStringLiteral("measurements"), {tr("Distance"), tr("From"), tr("To")})),
       copy_(new QToolButton(this)),

@@ -91,14 +91,29 @@ void ViewPicker::release(QPointF position, bool measures) {
   if (!(std::hypot(moved.x(), moved.y()) <= kStill)) {
     return;
   }
+  pickAt(position, measures);
+}
+
+/// Returns whether there is something.
+bool ViewPicker::pickAt(QPointF position, bool measures) {
   auto result = view_.pick(position);
-  if (result && measures) {
+  const bool is_hit = result.has_value();
+  if (is_hit && measures) {
     picks_->measureTo(std::move(*result));
-  } else if (result) {
+  } else if (is_hit) {
     picks_->select(std::move(*result));
   } else if (!measures) {
     picks_->select(std::nullopt);
   }
+  return is_hit;
+}
+
+void ViewPicker::pickMiddle(bool measures) {
+  const QPointF middle = QRectF(view_.rect()).center();
+  label_->clearAll();
+  cursor_.reset();
+  label_->setThing(pickAt(middle, measures) ? lineOf(*picks_->selected()) : tr("nothing in the middle of the view"));
+  label_->showAt(middle);
 }
 
 void ViewPicker::leave() {

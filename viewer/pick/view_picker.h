@@ -29,6 +29,8 @@ class ViewPicker : public QObject {
   void hover(QPointF position);
   /// Of the left button: a click where the mouse has not moved since press().
   void release(QPointF position, bool measures);
+  /// By keys: what is in the middle of the view, and says it there.
+  void pickMiddle(bool measures);
   void leave();
   /// Another dataset: nothing is picked.
   void clear();
@@ -37,6 +39,7 @@ class ViewPicker : public QObject {
 
  private:
   void hoverThing();
+  bool pickAt(QPointF position, bool measures);
   void onPicksChanged();
 
   SceneWidget& view_;

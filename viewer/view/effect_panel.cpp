@@ -3,6 +3,7 @@
 #include <QHeaderView>
 #include <QSignalBlocker>
 
+#include "viewer/layers/editor_keys.h"
 #include "viewer/layers/setting_editor.h"
 
 namespace stillframe::viewer {
@@ -25,6 +26,7 @@ EffectPanel::EffectPanel(QWidget* parent) : QTreeWidget(parent) {
     addRow(type);
   }
   showAll();
+  new EditorKeys(*this);
   connect(this, &QTreeWidget::itemChanged, this, &EffectPanel::onItemChanged);
 }
 

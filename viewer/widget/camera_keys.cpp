@@ -22,7 +22,7 @@ struct Binding {
 };
 
 using enum CameraCommand;
-const std::array<Binding, 37> kBindings = {{
+const std::array<Binding, 39> kBindings = {{
     {Qt::Key_Home, kNone, Home, "Home", "default view"},
     {Qt::Key_F, kNone, Frame, "F", "frame the selection, or everything"},
     {Qt::Key_F, kShift, FrameAll, "Shift+F", "frame everything"},
@@ -55,6 +55,8 @@ const std::array<Binding, 37> kBindings = {{
     {Qt::Key_BracketLeft, kNone, PaceDown, "[  ], Shift+wheel", "slower, faster (fly)"},
     {Qt::Key_BracketRight, kNone, PaceUp, "", ""},
     {Qt::Key_B, kNone, SaveView, "B", "save this view"},
+    {Qt::Key_P, kNone, PickMiddle, "P, Shift+P", "pick what is in the middle; measure from it to here"},
+    {Qt::Key_P, kShift, MeasureMiddle, "", ""},
     {Qt::Key_Delete, kNone, ClearPicks, "Delete", "nothing picked, nothing measured"},
     {Qt::Key_Question, kNone, Help, "?, F1", "this help; Esc closes it"},
     {Qt::Key_Question, kShift, Help, "", ""},

@@ -41,6 +41,8 @@ enum class CameraCommand : std::uint8_t {
   PaceUp,  ///< of a flying camera
   PaceDown,
   SaveView,
+  PickMiddle,
+  MeasureMiddle,
   ClearPicks,
   Help,
   CloseHelp,

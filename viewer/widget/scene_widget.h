@@ -114,6 +114,8 @@ class SceneWidget : public QOpenGLWidget {
   void home();
   void resetView();
   void toggleHelp();
+  /// The keyboard's focus is this view's; where it was already, the help is closed.
+  void comeBack();
   void frameAll();
   /// The selection in sight, or all data when nothing is selected or it has no place now.
   void frameSelection();

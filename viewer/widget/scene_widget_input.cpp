@@ -108,6 +108,13 @@ void SceneWidget::focusOutEvent(QFocusEvent* event) {
 
 void SceneWidget::toggleHelp() { help_->setShown(!help_->isShown()); }
 
+void SceneWidget::comeBack() {
+  if (hasFocus()) {
+    help_->setShown(false);
+  }
+  setFocus(Qt::OtherFocusReason);
+}
+
 /// Returns whether the key was for this view.
 bool SceneWidget::obey(CameraCommand command) {
   using enum CameraCommand;
@@ -136,6 +143,10 @@ bool SceneWidget::obey(CameraCommand command) {
       break;
     case SaveView:
       saveView();
+      break;
+    case PickMiddle:
+    case MeasureMiddle:
+      picker_->pickMiddle(command == MeasureMiddle);
       break;
     case ClearPicks:
       picker_->picks().clear();

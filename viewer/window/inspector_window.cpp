@@ -1,16 +1,12 @@
 #include "viewer/window/inspector_window.h"
 
-#include <QAction>
 #include <QApplication>
 #include <QDebug>
 #include <QDockWidget>
 #include <QDragEnterEvent>
-#include <QFileDialog>
-#include <QMenuBar>
 #include <QMimeData>
 #include <QProgressBar>
 #include <QScreen>
-#include <QShortcut>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
@@ -21,14 +17,10 @@
 #include "viewer/pick/inspect_dock.h"
 #include "viewer/time/opening_time.h"
 #include "viewer/time/time_bar.h"
-#include "viewer/view/view_history.h"
 #include "viewer/widget/scene_widget.h"
 #include "viewer/window/keyboard_guard.h"
 #include "viewer/window/message_bar.h"
-#include "viewer/window/picture_dialog.h"
-#include "viewer/window/picture_saver.h"
 #include "viewer/window/set_later.h"
-#include "viewer/window/theme.h"
 #include "viewer/window/view_window.h"
 
 namespace stillframe::viewer {
@@ -115,6 +107,7 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   buildShortcuts(*this);
   connect(views_, &ViewSet::added, this, [this](ViewPanel* panel) { connectView(*panel); });
   connect(views_, &ViewSet::windowAdded, this, [this](ViewWindow* window) { buildShortcuts(*window); });
+  connect(views_, &ViewSet::arranged, this, &InspectorWindow::onArranged);
   if (options_.layout) {
     restore(*options_.layout);
   } else {
@@ -123,6 +116,7 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
     }
   }
   makeReachable(*this);
+  activeView().view().setFocus();  // its keys work from the first moment
   if (options_.files.empty()) {
     statusBar()->showMessage(tr("Drop recordings here, or choose File > Open"));
   } else {
@@ -155,61 +149,6 @@ InspectorWindow::~InspectorWindow() {
   views_->clear();  // before the executor, which their layers use
 }
 
-void InspectorWindow::buildMenus() {
-  QMenu* file = menuBar()->addMenu(tr("&File"));
-  QAction* open = file->addAction(tr("&Open..."));
-  open->setShortcut(QKeySequence::Open);
-  connect(open, &QAction::triggered, this, [this] {
-    std::vector<std::filesystem::path> files;
-    for (const QString& name : QFileDialog::getOpenFileNames(this, tr("Open recordings"), {},
-                                                             tr("MCAP recordings (*.mcap);;All files (*)"))) {
-      files.emplace_back(name.toStdString());
-    }
-    if (!files.empty()) {
-      openFiles(std::move(files));
-    }
-  });
-  auto* saver = new PictureSaver(*executor_, this);
-  addPictureActions(*file, *this, *saver, [this]() -> ViewPanel& { return activeView(); });
-  connect(saver, &PictureSaver::failed, messages_, &MessageBar::warn);
-  buildLayoutMenu(*file);
-  QAction* quit = file->addAction(tr("&Quit"));
-  quit->setShortcut(QKeySequence::Quit);
-  connect(quit, &QAction::triggered, this, &QWidget::close);
-
-  QMenu* edit = menuBar()->addMenu(tr("&Edit"));  // the keys are those of each view
-  QAction* undo = edit->addAction(QString(), this, [this] { activeView().history().stack().undo(); });
-  QAction* redo = edit->addAction(QString(), this, [this] { activeView().history().stack().redo(); });
-  connect(edit, &QMenu::aboutToShow, this, [this, undo, redo] {
-    const QUndoStack& stack = activeView().history().stack();
-    undo->setText(tr("&Undo %1\tCtrl+Z").arg(stack.undoText()));
-    undo->setEnabled(stack.canUndo());
-    redo->setText(tr("&Redo %1\tCtrl+Shift+Z").arg(stack.redoText()));
-    redo->setEnabled(stack.canRedo());
-  });
-
-  QMenu* view = menuBar()->addMenu(tr("&View"));
-  connect(view->addAction(tr("Add view to the &right")), &QAction::triggered, this,
-          [this] { addView(&activeView(), Qt::Horizontal); });
-  connect(view->addAction(tr("Add view &below")), &QAction::triggered, this,
-          [this] { addView(&activeView(), Qt::Vertical); });
-  connect(view->addAction(tr("&Detach view into a window")), &QAction::triggered, this,
-          [this] { views_->detach(activeView()); });
-  view->addSeparator();
-  view->addAction(findChild<QDockWidget*>(QStringLiteral("framesDock"))->toggleViewAction());
-  view->addAction(inspect_->toggleViewAction());
-  addThemeMenu(*view);
-}
-
-void InspectorWindow::buildShortcuts(QWidget& window) {
-  const auto bind = [&](const QKeySequence& keys, auto action) {
-    connect(new QShortcut(keys, &window), &QShortcut::activated, time_bar_, action);
-  };
-  bind(Qt::Key_Space, [this] { time_bar_->togglePlaying(); });
-  bind(Qt::Key_Left, [this] { time_bar_->step(-1); });
-  bind(Qt::Key_Right, [this] { time_bar_->step(1); });
-}
-
 void InspectorWindow::openFiles(std::vector<std::filesystem::path> files) {
   statusBar()->showMessage(
       files.empty() ? QString() : tr("Opening %1").arg(QString::fromStdString(files.front().filename().string())));
@@ -232,7 +171,6 @@ void InspectorWindow::connectView(ViewPanel& panel) {
           [this](const QString& frame) { statusBar()->showMessage(frame); });
   inspect_->watch(panel.view());
   fillView(panel);
-  makeReachable(panel);
 }
 
 ViewPanel& InspectorWindow::addView(ViewPanel* like, Qt::Orientation orientation) {
@@ -283,6 +221,14 @@ void InspectorWindow::onOpened(const std::shared_ptr<scenegraph::Dataset>& datas
     fillView(*panel);
   }
   frame_tree_->setDataset(dataset);
+  views_->nameWindows();
+}
+
+void InspectorWindow::onArranged() {
+  makeReachable(*this);
+  for (ViewWindow* const window : views_->windows()) {
+    makeReachable(*window);
+  }
 }
 
 void InspectorWindow::takeRange() {

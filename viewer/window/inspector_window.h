@@ -73,9 +73,13 @@ class InspectorWindow : public QMainWindow {
  private:
   void buildMenus();
   void buildLayoutMenu(QMenu& file);
+  void buildViewMenu();
   void buildShortcuts(QWidget& window);
+  void focusNextView(int step);
+  void focusNextPanel(int step);
   void onOpened(const std::shared_ptr<scenegraph::Dataset>& dataset);
   void onProgress(double fraction);
+  void onArranged();
   void onLoaded();
   void onFailed(const scenegraph::Status& status);
   void takeRange();

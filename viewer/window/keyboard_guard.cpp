@@ -8,6 +8,8 @@
 #include <QLineEdit>
 #include <QSlider>
 
+#include "viewer/widget/tab_order.h"
+
 namespace stillframe::viewer {
 namespace {
 
@@ -51,6 +53,7 @@ void makeReachable(QWidget& root) {
       widget->setAccessibleName(widget->toolTip().section(QLatin1Char('\n'), 0, 0));
     }
   }
+  orderTabs(root);
 }
 
 }  // namespace stillframe::viewer

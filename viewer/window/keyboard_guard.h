@@ -16,7 +16,7 @@ class KeyboardGuard : public QObject {
 };
 
 /// Gives every button within `root` the keyboard's focus, and every control a name that a screen reader can say: its
-/// tool tip's first line or its placeholder, where it has no text.
+/// tool tip's first line or its placeholder, where it has no text. Tab goes through them as they are laid out.
 void makeReachable(QWidget& root);
 
 }  // namespace stillframe::viewer

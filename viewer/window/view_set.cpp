@@ -72,6 +72,7 @@ ViewPanel& ViewSet::make() {
 ViewPanel& ViewSet::add(ViewPanel* beside, Side side) {
   ViewPanel& panel = make();
   (beside == nullptr ? main_ : areaOf(*beside)).insert(panel, beside, side);
+  finishArranging();
   return panel;
 }
 
@@ -102,7 +103,7 @@ bool ViewSet::close(ViewPanel& panel) {
     activate(*views_.front());
   }
   panel.deleteLater();
-  closeEmptyWindows();
+  finishArranging();
   return true;
 }
 
@@ -111,7 +112,7 @@ bool ViewSet::detach(ViewPanel& panel) {
     return false;
   }
   openWindow({.width = kWindowWidth, .height = kWindowHeight}).area().insert(panel);
-  closeEmptyWindows();
+  finishArranging();
   return true;
 }
 
@@ -120,7 +121,7 @@ bool ViewSet::move(ViewPanel& panel, ViewPanel& beside, Side side) {
     return false;
   }
   areaOf(beside).insert(panel, &beside, side);
-  closeEmptyWindows();
+  finishArranging();
   return true;
 }
 
@@ -138,6 +139,25 @@ ViewWindow& ViewSet::openWindow(const scenegraph::WindowLayout& place) {
   Q_EMIT windowAdded(window);
   window->show();
   return *window;
+}
+
+void ViewSet::finishArranging() {
+  closeEmptyWindows();
+  nameWindows();
+  Q_EMIT arranged();
+}
+
+void ViewSet::nameWindows() {
+  for (ViewWindow* const window : windows_) {
+    QStringList numbers;
+    QString recording;
+    for (ViewPanel* const panel : window->area().panels()) {
+      numbers << QString::number(std::ranges::find(views_, panel) - views_.begin() + 1);
+      recording = recording.isEmpty() ? QString::fromStdString(panel->layout().dataset) : recording;
+    }
+    window->setWindowTitle((numbers.size() == 1 ? tr("View %1") : tr("Views %1")).arg(numbers.join(tr(", "))) +
+                           (recording.isEmpty() ? QString() : tr(" of %1").arg(recording)) + tr(" - Stillframe"));
+  }
 }
 
 void ViewSet::closeEmptyWindows() {
@@ -216,6 +236,7 @@ void ViewSet::arrange(const scenegraph::Layout& layout) {
   if (static_cast<std::size_t>(layout.active_view) <= views_.size()) {
     active_ = views_[static_cast<std::size_t>(layout.active_view) - 1];
   }
+  finishArranging();
   Q_EMIT activeChanged();
 }
 

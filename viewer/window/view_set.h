@@ -41,6 +41,8 @@ class ViewSet : public QObject {
   [[nodiscard]] scenegraph::Layout layout() const;
   /// Replaces all views and windows by those of `layout`.
   void arrange(const scenegraph::Layout& layout);
+  /// Windows of detached views say which views they have, and of what recording.
+  void nameWindows();
   /// Deletes all views and windows.
   void clear();
 
@@ -49,6 +51,8 @@ class ViewSet : public QObject {
   void added(stillframe::viewer::ViewPanel* panel);
   void windowAdded(stillframe::viewer::ViewWindow* window);
   void activeChanged();
+  /// Views were added, moved, closed, or restored.
+  void arranged();
 
  private:
   ViewPanel& make();
@@ -56,6 +60,7 @@ class ViewSet : public QObject {
   bool takeOut(ViewPanel& panel);
   ViewWindow& openWindow(const scenegraph::WindowLayout& place);
   void closeEmptyWindows();
+  void finishArranging();
   void drag(ViewPanel& panel);
   void activate(ViewPanel& panel);
   void onDropped(const QByteArray& token, ViewPanel& beside, Side side);

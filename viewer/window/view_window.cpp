@@ -8,7 +8,6 @@
 namespace stillframe::viewer {
 
 ViewWindow::ViewWindow(QWidget* parent) : QWidget(parent, Qt::Window), area_(new ViewArea(this)) {
-  setWindowTitle(tr("View - Stillframe"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(area_);

@@ -70,6 +70,15 @@ TEST_F(KeyboardTest, TheViewHasTheKeysFromTheFirstMoment) {
   EXPECT_EQ(QApplication::focusWidget(), &view());
 }
 
+TEST_F(KeyboardTest, EscapeClosesTheHelpOfTheViewThatHasTheFocus) {
+  openActive();
+  QWidget* const help = view().findChild<QWidget*>(QStringLiteral("help"));
+  key(Qt::Key_F1);
+  EXPECT_TRUE(help->isVisible());
+  key(Qt::Key_Escape);
+  EXPECT_FALSE(help->isVisible());
+}
+
 TEST_F(KeyboardTest, TabGoesThroughTheControlsAsTheyAreLaidOut) {
   openActive();
   layers().item("/points")->setExpanded(true);

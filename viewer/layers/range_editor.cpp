@@ -34,15 +34,17 @@ bool RangeEditor::isFor(const std::vector<scenegraph::SettingSpec>& specs) {
 }
 
 RangeEditor::RangeEditor(const std::vector<scenegraph::SettingSpec>& specs, QWidget* parent)
-    : QWidget(parent), mode_(new QComboBox(this)), strip_(new RangeStrip(this)) {
+    : QWidget(parent),
+      mode_(new QComboBox(this)),
+      low_(new NumberBox(-kLargestNumber, kLargestNumber, this)),
+      high_(new NumberBox(-kLargestNumber, kLargestNumber, this)),
+      strip_(new RangeStrip(this)) {
   const auto spec = std::ranges::find(specs, "range_mode", &scenegraph::SettingSpec::key);
   for (const std::string& mode : spec->choices) {
     mode_->addItem(QString::fromStdString(mode));
   }
   mode_->setToolTip(QString::fromStdString(spec->help));
   mode_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  low_ = new NumberBox(-kLargestNumber, kLargestNumber, this);
-  high_ = new NumberBox(-kLargestNumber, kLargestNumber, this);
   low_->setObjectName(QStringLiteral("low"));
   high_->setObjectName(QStringLiteral("high"));
   auto* layout = new QVBoxLayout(this);

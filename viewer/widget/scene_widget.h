@@ -27,10 +27,10 @@ class QLabel;
 
 namespace stillframe::viewer {
 class HelpOverlay;
+class PictureJob;
 class ViewPicker;
 class ViewPicks;
 struct PictureRequest;
-class PictureJob;
 
 /// The 3D view: one Scene, one camera, one pipeline in the widget's own context. GUI thread.
 ///
@@ -114,8 +114,6 @@ class SceneWidget : public QOpenGLWidget {
   void home();
   void resetView();
   void toggleHelp();
-  /// The keyboard's focus is this view's; where it was already, the help is closed.
-  void comeBack();
   void frameAll();
   /// The selection in sight, or all data when nothing is selected or it has no place now.
   void frameSelection();

@@ -108,13 +108,6 @@ void SceneWidget::focusOutEvent(QFocusEvent* event) {
 
 void SceneWidget::toggleHelp() { help_->setShown(!help_->isShown()); }
 
-void SceneWidget::comeBack() {
-  if (hasFocus()) {
-    help_->setShown(false);
-  }
-  setFocus(Qt::OtherFocusReason);
-}
-
 /// Returns whether the key was for this view.
 bool SceneWidget::obey(CameraCommand command) {
   using enum CameraCommand;

@@ -16,6 +16,7 @@
 #include "viewer/time/time_bar.h"
 #include "viewer/view/effect_panel.h"
 #include "viewer/view/view_history.h"
+#include "viewer/widget/help_overlay.h"
 #include "viewer/widget/scene_widget.h"
 #include "viewer/window/inspector_window.h"
 #include "viewer/window/message_bar.h"
@@ -117,7 +118,13 @@ void InspectorWindow::buildShortcuts(QWidget& window) {
   bind(Qt::Key_Space, [this] { time_bar_->togglePlaying(); });
   bind(Qt::Key_Left, [this] { time_bar_->step(-1); });
   bind(Qt::Key_Right, [this] { time_bar_->step(1); });
-  bind(Qt::Key_Escape, [this] { activeView().view().comeBack(); });
+  bind(Qt::Key_Escape, [this] {
+    SceneWidget& view = activeView().view();
+    if (view.hasFocus()) {
+      view.findChild<HelpOverlay*>()->setShown(false);
+    }
+    view.setFocus();
+  });
   if (&window == this) {  // the views have theirs: what the frames panel changes is a setting of the active one
     for (QWidget* const panel : std::initializer_list<QWidget*>{frame_tree_, inspect_, time_bar_}) {
       const auto bind_undo = [&](const QKeySequence& keys, auto action) {

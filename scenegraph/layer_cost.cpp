@@ -7,6 +7,8 @@
 #include <osg/NodeVisitor>
 #include <vector>
 
+#include "scenegraph/how_many.h"
+
 namespace stillframe::scenegraph {
 namespace {
 
@@ -58,8 +60,8 @@ LayerCost layerCost(const LayerSlot& slot) {
 }
 
 std::string costText(const LayerCost& cost) {
-  std::string text = grouped(cost.vertices) + " vertices in " + grouped(cost.draw_calls) +
-                     (cost.draw_calls == 1 ? " draw call" : " draw calls");
+  std::string text = grouped(cost.vertices) + " " + nounOf(cost.vertices, "vertices") + " in " +
+                     grouped(cost.draw_calls) + " " + nounOf(cost.draw_calls, "draw calls");
   const auto add = [&](const char* what, const std::optional<double>& ms) {
     std::array<char, 32> number{};
     if (ms) {

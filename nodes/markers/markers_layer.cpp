@@ -6,11 +6,13 @@
 
 #include "nodes/buffer_limit.h"
 #include "nodes/osg_math.h"
+#include "scenegraph/how_many.h"
 #include "scenegraph/placement.h"
 #include "scenegraph/store/tf_clock.h"
 
 namespace stillframe::nodes {
 
+using scenegraph::howMany;
 using scenegraph::Status;
 using scenegraph::StatusLevel;
 
@@ -104,12 +106,9 @@ Status MarkersLayer::judge(tf::TimePoint time) const {
 Status MarkersLayer::remark(tf::TimePoint time) const {
   const SceneState& state = *tracker_->product();
   const std::string base = "'" + topic_ + "': ";
-  const auto plural = [](std::uint64_t count, const std::string& what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-  };
   if (state.refused > 0) {
     return {StatusLevel::Warn, "TooManyMarkers",
-            base + plural(state.refused, "marker") +
+            base + howMany(state.refused, "markers") +
                 " found no room: all together are beyond 1 GiB, or lie in more frames than can be drawn"};
   }
   if (!state.faults.empty()) {
@@ -121,31 +120,31 @@ Status MarkersLayer::remark(tf::TimePoint time) const {
   }
   const MarkerPicture::Counts counts = picture_->counts();
   if (counts.texels_too_many > 0) {
-    return bufferTooLarge(base + "shapes or lines among its " + plural(counts.entities, "marker"),
+    return bufferTooLarge(base + "shapes or lines among its " + howMany(counts.entities, "markers"),
                           counts.texels_too_many, buffer_texels_);
   }
   if (state.totals.unsound + counts.left_out > 0) {
     return {StatusLevel::Warn, "PrimitivesLeftOut",
-            base + plural(state.totals.unsound + counts.left_out, "primitive") +
+            base + howMany(state.totals.unsound + counts.left_out, "primitives") +
                 " are left out: poses or sizes that are not finite or beyond reach, wrong indices, or more than " +
                 std::to_string(RestParts::kMostTexts) + " texts"};
   }
   if (const auto failure = picture_->modelFailure()) {
     const std::uint64_t others = counts.failed_models - 1;
     return {StatusLevel::Warn, failure->code,
-            base + failure->message + (others > 0 ? ", and so for " + plural(others, "other") : "")};
+            base + failure->message + (others > 0 ? ", and so for " + howMany(others, "others") : "")};
   }
   if (state.totals.flat > 0) {
     return {StatusLevel::Info, "ZeroScale",
-            base + plural(state.totals.flat, "primitive") + " drawn flat, for a scale of 0 along an axis"};
+            base + howMany(state.totals.flat, "primitives") + " drawn flat, for a scale of 0 along an axis"};
   }
   if (state.totals.invisible > 0) {
     return {StatusLevel::Info, "Transparent",
-            base + plural(state.totals.invisible, "primitive") + " cannot be seen, for an alpha of 0"};
+            base + howMany(state.totals.invisible, "primitives") + " cannot be seen, for an alpha of 0"};
   }
   if (state.undecodable > 0) {
     return {StatusLevel::Info, "UndecodableMessages",
-            base + plural(state.undecodable, "earlier message") + " could not be read; what they did is not shown"};
+            base + howMany(state.undecodable, "earlier messages") + " could not be read; what they did is not shown"};
   }
   if (state.totals.entities == 0) {
     return {StatusLevel::Info, "NoMarkers",
@@ -154,7 +153,7 @@ Status MarkersLayer::remark(tf::TimePoint time) const {
   }
   if (counts.entities == 0) {
     return {StatusLevel::Info, "NamespacesHidden",
-            base + plural(counts.hidden, "marker") + ", all in namespaces that are switched off"};
+            base + howMany(counts.hidden, "markers") + ", all in namespaces that are switched off"};
   }
   if (const auto moved = movedFrame(time)) {
     return {StatusLevel::Info, "NotFrameLocked",

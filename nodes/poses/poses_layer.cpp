@@ -7,11 +7,13 @@
 
 #include "nodes/buffer_limit.h"
 #include "nodes/points/value_histogram.h"
+#include "scenegraph/how_many.h"
 #include "scenegraph/store/tf_clock.h"
 
 namespace stillframe::nodes {
 namespace {
 
+using scenegraph::howMany;
 using scenegraph::PosesInFrame;
 using scenegraph::PosesKind;
 using scenegraph::Status;
@@ -40,7 +42,7 @@ TrailWindow windowOf(const PosesSettings& settings) {
   return window;
 }
 
-std::string posesText(std::size_t count) { return std::to_string(count) + (count == 1 ? " pose" : " poses"); }
+std::string posesText(std::size_t count) { return howMany(count, "poses"); }
 
 /// "2 of 5 poses have no bottom"; `what` is said of one and of several.
 std::string countText(std::size_t count, std::size_t of, const char* have, const char* what) {
@@ -107,8 +109,7 @@ void remarkCovariance(Remarks& remarks, const CovarianceReport& report) {
     remarks.add("BadCovariance", std::string("the covariance of the rotation") + why(*report.rotation));
   }
   if (report.unbounded_axes > 0) {
-    remarks.add("UnboundedCovariance", "the position is unknown along " + std::to_string(report.unbounded_axes) +
-                                           (report.unbounded_axes == 1 ? " axis" : " axes") +
+    remarks.add("UnboundedCovariance", "the position is unknown along " + howMany(report.unbounded_axes, "axes") +
                                            " (a standard deviation beyond 300 m): the ellipsoid is flat there");
   }
 }
@@ -120,9 +121,7 @@ void remarkTrail(Remarks& remarks, const PoseTrail& trail) {
                                           " in another frame than the last one: not drawn");
   }
   if (trail.undecodable > 0) {
-    remarks.add("TrailUndecodable", std::to_string(trail.undecodable) +
-                                        (trail.undecodable == 1 ? " message" : " messages") +
-                                        " of the trail could not be decoded");
+    remarks.add("TrailUndecodable", howMany(trail.undecodable, "messages") + " of the trail could not be decoded");
   }
   if (trail.is_cut) {
     remarks.add("TrailCut", "the trail is cut to its last " + std::to_string(PoseTrail::kMost) + " poses");

@@ -188,6 +188,11 @@ TEST_F(KeyboardTest, ViewsAreSplitChangedDetachedAndClosedByKeys) {
   EXPECT_EQ(QApplication::focusWidget(), &view(2)) << "the new one";
   key(Qt::Key_Tab, Qt::ControlModifier);
   EXPECT_EQ(QApplication::focusWidget(), &view(0));
+  for (const ViewPanel* const panel : window_->views()) {
+    EXPECT_EQ(panel->findChild<QWidget*>(QStringLiteral("mark"))->backgroundRole() == QPalette::Highlight,
+              panel == window_->views().front())
+        << "one sees which one it is";
+  }
   key(Qt::Key_Backtab, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_EQ(QApplication::focusWidget(), &view(2));
   key(Qt::Key_W, Qt::ControlModifier);

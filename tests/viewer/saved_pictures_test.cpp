@@ -29,7 +29,27 @@ namespace {
 using test::settle;
 using test::waitFor;
 
-class SavedPictures : public test::OpenWindowTest {};
+class SavedPictures : public test::OpenWindowTest {
+ protected:
+  /// The menu's entries, and what they show in the status bar, once more: for saver_.
+  void addMenu() {
+    addPictureActions(menu_, *window_, saver_, [this]() -> ViewPanel& { return *window_->views().front(); });
+  }
+  void finish() {
+    ASSERT_TRUE(waitFor([this] { return saver_.pending() == 0; }));
+  }
+  [[nodiscard]] QString fileOf(const char* name) const { return folder_.filePath(QLatin1String(name)); }
+  /// The one of addMenu(); the window has its own before it.
+  template <typename Widget>
+  [[nodiscard]] Widget& added(const char* name) const {
+    return *window_->findChildren<Widget*>(QLatin1String(name)).back();
+  }
+
+  QTemporaryDir folder_;
+  std::unique_ptr<scenegraph::Executor> executor_ = scenegraph::makeThreadPoolExecutor(1);
+  PictureSaver saver_{*executor_};
+  QMenu menu_;
+};
 
 struct RgbaFile {
   int width = 0;
@@ -49,23 +69,20 @@ RgbaFile readRgba(const QString& file) {
 
 TEST_F(SavedPictures, APictureOfTheViewHasAnySizeAndAlpha) {
   open({.files = {"robot.mcap"}, .time = "+1"});
-  const QTemporaryDir folder;
-  const auto executor = scenegraph::makeThreadPoolExecutor(1);
-  PictureSaver saver(*executor);
   QStringList saved;
-  QObject::connect(&saver, &PictureSaver::saved, &saver, [&](const QString& file) { saved << file; });
+  QObject::connect(&saver_, &PictureSaver::saved, &saver_, [&](const QString& file) { saved << file; });
   QString error;
-  QObject::connect(&saver, &PictureSaver::failed, &saver, [&](const QString& message) { error = message; });
+  QObject::connect(&saver_, &PictureSaver::failed, &saver_, [&](const QString& message) { error = message; });
   const QImage before = view().grabFramebuffer();
 
-  saver.saveView(view(), {.width_px = 700, .height_px = 300, .is_transparent = true}, folder.filePath("clear.png"));
-  saver.saveView(view(), {.width_px = 64, .height_px = 64}, folder.filePath("solid.png"));
-  saver.saveView(view(), {.width_px = 64, .height_px = 64}, folder.filePath("light.exr"));
-  EXPECT_EQ(saver.pending(), 3);
+  saver_.saveView(view(), {.width_px = 700, .height_px = 300, .is_transparent = true}, fileOf("clear.png"));
+  saver_.saveView(view(), {.width_px = 64, .height_px = 64}, fileOf("solid.png"));
+  saver_.saveView(view(), {.width_px = 64, .height_px = 64}, fileOf("light.exr"));
+  EXPECT_EQ(saver_.pending(), 3);
   EXPECT_TRUE(saved.isEmpty()) << "the window has its time to say so";
-  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  finish();
   EXPECT_EQ(saved.size(), 3) << error.toStdString();
-  const RgbaFile clear = readRgba(folder.filePath("clear.png"));
+  const RgbaFile clear = readRgba(fileOf("clear.png"));
   EXPECT_EQ(clear.width, 700);
   EXPECT_EQ(clear.height, 300);
   std::size_t nothing = 0;
@@ -76,11 +93,11 @@ TEST_F(SavedPictures, APictureOfTheViewHasAnySizeAndAlpha) {
   }
   EXPECT_GT(nothing, 50'000U);
   EXPECT_GT(opaque, 1'000U);
-  const RgbaFile solid = readRgba(folder.filePath("solid.png"));
+  const RgbaFile solid = readRgba(fileOf("solid.png"));
   for (std::size_t i = 3; i < solid.bytes.size(); i += 4) {
     ASSERT_EQ(solid.bytes[i], 255);
   }
-  EXPECT_GT(QFileInfo(folder.filePath("light.exr")).size(), 1000);
+  EXPECT_GT(QFileInfo(fileOf("light.exr")).size(), 1000);
 
   settle();
   EXPECT_EQ(view().grabFramebuffer(), before) << "the view goes on as it was";
@@ -88,31 +105,26 @@ TEST_F(SavedPictures, APictureOfTheViewHasAnySizeAndAlpha) {
   EXPECT_EQ(view().takePicture({.width_px = 1'000'000, .height_px = 10}).error().code, "TooLarge");
   EXPECT_EQ(view().takePicture({.width_px = 0, .height_px = 10}).error().code, "BadSize");
   EXPECT_EQ(SceneWidget().takePicture({}).error().code, "NotDrawn");
-  saver.saveView(view(), {.width_px = 8, .height_px = 8}, folder.filePath("no/such/a.png"));
-  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  saver_.saveView(view(), {.width_px = 8, .height_px = 8}, fileOf("no/such/a.png"));
+  finish();
   EXPECT_TRUE(error.contains(QStringLiteral("no/such/a.png")));
 }
 
 TEST_F(SavedPictures, ThatAPictureIsDrawnIsShownBeforeItIsDrawn) {
   open({.files = {"robot.mcap"}, .time = "+1"});
-  const QTemporaryDir folder;
-  const auto executor = scenegraph::makeThreadPoolExecutor(1);
-  PictureSaver saver(*executor);
-  QMenu menu;
-  addPictureActions(menu, *window_, saver, [this]() -> ViewPanel& { return *window_->views().front(); });
-  const auto bars = window_->findChildren<QProgressBar*>(QStringLiteral("pictureProgress"));
-  ASSERT_EQ(bars.size(), 2) << "the window's own, and ours";
+  addMenu();
+  const auto& bar = added<QProgressBar>("pictureProgress");
   bool was_painted = false;
-  QObject::connect(&saver, &PictureSaver::drawn, window_.get(), [&] { was_painted = bars.back()->isVisible(); });
-  saver.saveView(view(), {.width_px = 2000, .height_px = 1000}, folder.filePath("large.png"));
-  EXPECT_TRUE(bars.back()->isVisible());
+  QObject::connect(&saver_, &PictureSaver::drawn, window_.get(), [&] { was_painted = bar.isVisible(); });
+  saver_.saveView(view(), {.width_px = 2000, .height_px = 1000}, fileOf("large.png"));
+  EXPECT_TRUE(bar.isVisible());
   EXPECT_TRUE(window_->statusBar()->currentMessage().contains(QStringLiteral("2000 x 1000")));
-  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  finish();
   EXPECT_TRUE(was_painted);
-  EXPECT_FALSE(bars.back()->isVisible());
-  saver.saveView(view(), {.width_px = 0, .height_px = 1}, folder.filePath("none.png"));
-  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
-  EXPECT_FALSE(bars.back()->isVisible());
+  EXPECT_FALSE(bar.isVisible());
+  saver_.saveView(view(), {.width_px = 0, .height_px = 1}, fileOf("none.png"));
+  finish();
+  EXPECT_FALSE(bar.isVisible());
 }
 
 TEST_F(SavedPictures, AHugePictureIsTakenInStepsAndTheViewStandsStillMeanwhile) {
@@ -148,59 +160,54 @@ TEST_F(SavedPictures, AHugePictureIsTakenInStepsAndTheViewStandsStillMeanwhile) 
   }
   EXPECT_EQ(view().continuePicture().error().code, "NotDrawn");
   ASSERT_TRUE(view().beginPicture({.width_px = 64, .height_px = 64}));
-  const auto executor = scenegraph::makeThreadPoolExecutor(1);
-  window_->views().front()->setDataset(nullptr, *executor, {});
+  window_->views().front()->setDataset(nullptr, *executor_, {});
   EXPECT_EQ(view().continuePicture().error().code, "NotDrawn");
 }
 
 TEST_F(SavedPictures, AHugePictureTellsHowFarItIsAndCanBeGivenUp) {
   open({.files = {"robot.mcap"}, .time = "+1"});
-  const QTemporaryDir folder;
-  const auto executor = scenegraph::makeThreadPoolExecutor(1);
-  PictureSaver saver(*executor);
-  QMenu menu;
-  addPictureActions(menu, *window_, saver, [this]() -> ViewPanel& { return *window_->views().front(); });
-  auto* const bar = window_->findChildren<QProgressBar*>(QStringLiteral("pictureProgress")).back();
-  auto* const cancel = window_->findChildren<QToolButton*>(QStringLiteral("cancelPicture")).back();
+  addMenu();
+  const auto& bar = added<QProgressBar>("pictureProgress");
+  auto& cancel = added<QToolButton>("cancelPicture");
   std::vector<double> shares;
   int most = 0;
-  QObject::connect(&saver, &PictureSaver::progressed, window_.get(), [&](double share) {
+  QObject::connect(&saver_, &PictureSaver::progressed, window_.get(), [&](double share) {
     shares.push_back(share);
-    most = std::max(most, bar->value());
+    most = std::max(most, bar.value());
   });
-  const QString file = folder.filePath("huge.png");
-  saver.saveView(view(), {.width_px = 3000, .height_px = 1000}, file);
-  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+  const QString file = fileOf("huge.png");
+  saver_.saveView(view(), {.width_px = 3000, .height_px = 1000}, file);
+  finish();
   EXPECT_TRUE(QFileInfo::exists(file));
   EXPECT_GT(shares.size(), 12U) << "of drawing and of writing";
   EXPECT_GT(most, 900);
-  EXPECT_FALSE(cancel->isVisible());
+  EXPECT_FALSE(cancel.isVisible());
 
   // Given up while it is drawn, and while it is written.
   int given_up = 0;
-  QObject::connect(&saver, &PictureSaver::cancelled, window_.get(), [&] { ++given_up; });
+  QObject::connect(&saver_, &PictureSaver::cancelled, window_.get(), [&] { ++given_up; });
   for (const bool is_written : {false, true}) {
-    const QString never = folder.filePath("never.png");
-    saver.saveView(view(), {.width_px = 3000, .height_px = 1000}, never);
-    saver.saveView(view(), {.width_px = 30, .height_px = 10}, never);
-    EXPECT_TRUE(cancel->isVisible());
+    const QString never = fileOf("never.png");
+    saver_.saveView(view(), {.width_px = 3000, .height_px = 1000}, never);
+    saver_.saveView(view(), {.width_px = 30, .height_px = 10}, never);
+    EXPECT_TRUE(cancel.isVisible());
     const auto give_up = [&] {
-      cancel->click();
+      cancel.click();
       return true;
     };
     QMetaObject::Connection once;
     if (is_written) {
-      once = QObject::connect(&saver, &PictureSaver::drawn, window_.get(), give_up);
+      once = QObject::connect(&saver_, &PictureSaver::drawn, window_.get(), give_up);
     } else {
       ASSERT_TRUE(waitFor([&, count = shares.size()] { return shares.size() > count + 2; }));
       give_up();
     }
-    ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
+    finish();
     QObject::disconnect(once);
     EXPECT_EQ(given_up, is_written ? 4 : 2);
     EXPECT_FALSE(QFileInfo::exists(never));
-    EXPECT_FALSE(cancel->isVisible());
-    EXPECT_FALSE(bar->isVisible());
+    EXPECT_FALSE(cancel.isVisible());
+    EXPECT_FALSE(bar.isVisible());
   }
   settle();
   EXPECT_GT(test::drawnPixels(view().grabFramebuffer()), 500) << "the view goes on";
@@ -248,19 +255,15 @@ TEST_F(SavedPictures, APictureOfTheViewHasItsLegendAndWhatIsMeasured) {
 
 TEST_F(SavedPictures, APictureOfTheWindowIsAllOfIt) {
   open();
-  const QTemporaryDir folder;
-  const auto executor = scenegraph::makeThreadPoolExecutor(1);
-  PictureSaver saver(*executor);
-  saver.saveWindow(*window_, folder.filePath("window.png"));
-  ASSERT_TRUE(waitFor([&] { return saver.pending() == 0; }));
-  const QImage image(folder.filePath("window.png"));
+  saver_.saveWindow(*window_, fileOf("window.png"));
+  finish();
+  const QImage image(fileOf("window.png"));
   EXPECT_EQ(image.size(), window_->size() * window_->devicePixelRatioF());
   EXPECT_GT(test::drawnPixels(image), 1000);
 }
 
 TEST_F(SavedPictures, TheMenuAsksForSizeAndFile) {
   open();
-  const QTemporaryDir folder;
   QTimer::singleShot(0, window_.get(), [&] {
     auto* const dialog = qobject_cast<PictureDialog*>(QApplication::activeModalWidget());
     ASSERT_NE(dialog, nullptr);

@@ -8,6 +8,7 @@
 
 #include "nodes/registry.h"
 #include "scenegraph/camera/camera_rig.h"
+#include "scenegraph/how_many.h"
 #include "scenegraph/osg_box.h"
 #include "scenegraph/pipeline/offscreen_renderer.h"
 #include "scenegraph/scene.h"
@@ -25,7 +26,7 @@ constexpr int kDraws = 5;
 
 constexpr std::array<std::size_t, 3> kCounts{1, 2, 4};
 
-std::string viewsName(std::size_t views) { return std::to_string(views) + (views == 1 ? " view, " : " views, "); }
+std::string viewsName(std::size_t views) { return scenegraph::howMany(views, "views") + ", "; }
 
 /// One view without a widget: what is a view's own.
 struct BenchView {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <ranges>
 
+#include "scenegraph/how_many.h"
 #include "scenegraph/store/edge_problems.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/json_text.h"
@@ -134,7 +135,7 @@ void printFrames(const tf::TransformBuffer& buffer) {
     open.pop_back();
     std::string line = std::string(2 * std::min<std::size_t>(depth, 32), ' ') + printable(buffer.frameName(frame));
     if (const auto edge = buffer.edge(frame)) {
-      line += "  " + std::to_string(edge->samples) + (edge->samples == 1 ? " sample" : " samples");
+      line += "  " + scenegraph::howMany(edge->samples, "samples");
       line += edge->is_static ? ", static" : "";
     }
     std::printf("%s\n", line.c_str());

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <set>
 
+#include "scenegraph/how_many.h"
 #include "scenegraph/layer_cost.h"
 #include "scenegraph/layer_list.h"
 #include "viewer/layers/editor_keys.h"
@@ -40,13 +41,9 @@ QString layerName(const scenegraph::LayerSlot& slot) {
   return is_builtin && slot.title == slot.topic ? toQString(slot.type->label) : QString::fromStdString(slot.title);
 }
 
-QString counted(std::uint64_t count, QString name) {
-  if (count == 1 && name.endsWith(QStringLiteral("ies"))) {
-    name = name.chopped(3) + QLatin1Char('y');
-  } else if (count == 1 && name.endsWith(QLatin1Char('s'))) {
-    name.chop(1);
-  }
-  return QLocale().toString(static_cast<qulonglong>(count)) + QLatin1Char(' ') + name;
+QString counted(std::uint64_t count, std::string_view plural) {
+  return QLocale().toString(static_cast<qulonglong>(count)) + QLatin1Char(' ') +
+         QString::fromStdString(scenegraph::nounOf(count, plural));
 }
 
 QString statusLine(const scenegraph::Layer& layer) {
@@ -60,7 +57,7 @@ QString statusLine(const scenegraph::Layer& layer) {
   QStringList parts;
   if (const auto counts = layer.counts(); !counts.empty()) {
     const auto& [name, count] = counts.front();
-    parts << counted(count, QString::fromStdString(name));
+    parts << counted(count, name);
   }
   if (status.level == StatusLevel::Info) {
     parts << QString::fromStdString(status.code);

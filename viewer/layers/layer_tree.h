@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenegraph/scene.h"
@@ -93,8 +94,8 @@ class LayerTree : public QTreeWidget {
   std::uint64_t measured_revision_ = 0;            // of the scene, that they hold for
 };
 
-/// "28,800 points", "1 pose"; `name` is a plural, as counts() has them.
-[[nodiscard]] QString counted(std::uint64_t count, QString name);
+/// "28,800 points", "1 pose".
+[[nodiscard]] QString counted(std::uint64_t count, std::string_view plural);
 /// What a row says beside its name: why nothing is drawn, else how much is and the code of a note ("39,712 points,
 /// PointsDropped"); the row beneath has the sentence.
 [[nodiscard]] QString statusLine(const scenegraph::Layer& layer);

@@ -24,6 +24,7 @@ namespace {
 
 constexpr int kLayerPanelWidth = 270;
 constexpr int kLeastPickerWidth = 60;
+constexpr int kMarkHeight = 2;
 
 /// A label that is shown whole, or not at all where there is no room.
 class WholeLabel : public QLabel {
@@ -45,9 +46,14 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
 
+  mark_ = new QWidget(this);
+  mark_->setObjectName(QStringLiteral("mark"));
+  mark_->setFixedHeight(kMarkHeight);
+  mark_->setAutoFillBackground(true);
+  layout->addWidget(mark_);
   auto* bar = new QWidget(this);
   auto* bar_layout = new QHBoxLayout(bar);
-  bar_layout->setContentsMargins(4, 2, 4, 2);
+  bar_layout->setContentsMargins(4, 0, 4, 2);
   bar_layout->setSpacing(2);
   auto* grip = new ViewGrip(bar);
   bar_layout->addWidget(grip);
@@ -145,6 +151,8 @@ QToolButton* ViewPanel::addButton(QWidget& bar, const QString& name, const QIcon
 }
 
 int ViewPanel::panelsWidth() const { return splitter_->widget(0)->isVisible() ? splitter_->sizes().constFirst() : 0; }
+
+void ViewPanel::setMarked(bool marked) { mark_->setBackgroundRole(marked ? QPalette::Highlight : QPalette::Window); }
 
 void ViewPanel::setArrangeable(bool arrangeable) {
   for (QWidget* const widget : arranging_) {

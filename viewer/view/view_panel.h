@@ -60,6 +60,9 @@ class ViewPanel : public QWidget {
   /// first.
   void setArrangeable(bool arrangeable);
 
+  /// A line above the view in the colour of what is selected: of several it is the active one.
+  void setMarked(bool marked);
+
   /// Of the layers and effects beside the picture, where they are shown.
   [[nodiscard]] int panelsWidth() const;
 
@@ -108,6 +111,7 @@ class ViewPanel : public QWidget {
   LegendOverlay* legend_ = nullptr;
   ViewHistory* history_ = nullptr;
   std::uint64_t adopted_revision_ = 0;
+  QWidget* mark_ = nullptr;
   QSplitter* splitter_ = nullptr;
   QToolButton* layers_button_ = nullptr;
   QToolButton* effects_button_ = nullptr;

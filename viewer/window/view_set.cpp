@@ -51,6 +51,7 @@ void ViewSet::clear() {
 void ViewSet::activate(ViewPanel& panel) {
   if (active_ != &panel) {
     active_ = &panel;
+    markActive();
     Q_EMIT activeChanged();
   }
 }
@@ -144,7 +145,14 @@ ViewWindow& ViewSet::openWindow(const scenegraph::WindowLayout& place) {
 void ViewSet::finishArranging() {
   closeEmptyWindows();
   nameWindows();
+  markActive();
   Q_EMIT arranged();
+}
+
+void ViewSet::markActive() {
+  for (ViewPanel* const panel : views_) {
+    panel->setMarked(panel == active_ && views_.size() > 1);
+  }
 }
 
 void ViewSet::nameWindows() {

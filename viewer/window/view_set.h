@@ -61,6 +61,7 @@ class ViewSet : public QObject {
   ViewWindow& openWindow(const scenegraph::WindowLayout& place);
   void closeEmptyWindows();
   void finishArranging();
+  void markActive();
   void drag(ViewPanel& panel);
   void activate(ViewPanel& panel);
   void onDropped(const QByteArray& token, ViewPanel& beside, Side side);

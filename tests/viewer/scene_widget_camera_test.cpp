@@ -201,6 +201,22 @@ TEST_F(WidgetCameraTest, SmoothMovesEndExactlyWhereTheOthersDo) {
   EXPECT_EQ(widget_.framesDrawn(), rested) << "idle again";
 }
 
+TEST_F(WidgetCameraTest, WhatIsRestoredStaysWhenTheLastDataBringsAnotherFixedFrame) {
+  auto state = widget_.camera().state();
+  state.camera.orbit.radius_m = 33.0;
+  for (const bool is_touched : {false, true}) {
+    widget_.scene()->setPreferredFrame(std::nullopt);
+    widget_.restoreViewpoint(state, is_touched);
+    settle();
+    widget_.scene()->setPreferredFrame("base_link");  // as frames do that come last, before any tick
+    EXPECT_TRUE(widget_.endRestoring());
+    settle();
+    EXPECT_EQ(widget_.scene()->fixedFrame(), "base_link");
+    EXPECT_EQ(widget_.camera().state(), state);
+    EXPECT_FALSE(widget_.endRestoring());
+  }
+}
+
 TEST_F(WidgetCameraTest, QuestionMarkShowsTheHelpAndEscapeHidesIt) {
   auto* help = widget_.findChild<HelpOverlay*>();
   ASSERT_NE(help, nullptr);

@@ -63,7 +63,7 @@ class SceneWidget : public QOpenGLWidget {
   /// automatic choice comes to while data arrives, and neither is carried over nor framed anew. `is_touched`: as saved.
   void restoreViewpoint(const scenegraph::ViewpointState& state, bool is_touched);
   /// All frames are known. Returns whether a viewpoint was being restored.
-  bool endRestoring() { return std::exchange(restored_, std::nullopt).has_value(); }
+  bool endRestoring();
   /// Whether a gesture or setViewpoint() has moved the camera since home().
   [[nodiscard]] bool isCameraTouched() const noexcept { return is_camera_touched_; }
   /// Whether the camera has not yet been where it belongs: there is nothing to see so far.

@@ -73,6 +73,19 @@ void SceneWidget::restoreViewpoint(const scenegraph::ViewpointState& state, bool
   restored_ = state;
 }
 
+bool SceneWidget::endRestoring() {
+  if (!restored_) {
+    return false;
+  }
+  if (scene_ != nullptr) {
+    scene_->update(time_);  // the last data may have brought another fixed frame: not one to look anew for
+    followTick();
+    update();
+  }
+  restored_.reset();
+  return true;
+}
+
 void SceneWidget::setCameraKind(scenegraph::CameraKind kind) {
   camera_.setKind(kind, now());
   picker_->label().hide();

@@ -5,6 +5,7 @@
 #include <QClipboard>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QLabel>
 #include <QLineEdit>
 #include <QTest>
 #include <QToolButton>
@@ -82,7 +83,11 @@ TEST_F(FramesPanelTest, FilterListsWhatMatchesAndWhereItHangs) {
   panel_.filter().setText(QStringLiteral("(["));
   EXPECT_FALSE(panel_.item("lidar")->isHidden()) << "no regular expression hides nothing";
   EXPECT_FALSE(panel_.filter().toolTip().isEmpty());
+  const auto* const refusal = panel_.findChild<QLabel*>(QStringLiteral("filterRefusal"));
+  EXPECT_FALSE(refusal->isHidden());
+  EXPECT_TRUE(refusal->text().contains(QStringLiteral("at character 2"))) << refusal->text().toStdString();
   panel_.filter().clear();
+  EXPECT_TRUE(refusal->isHidden());
   panel_.findChild<QToolButton*>(QStringLiteral("hideListed"))->click();
   EXPECT_EQ(edited_.size(), 4U);
   EXPECT_EQ(panel_.item("map")->checkState(0), Qt::Unchecked);

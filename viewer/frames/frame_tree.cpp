@@ -58,6 +58,12 @@ FrameTree::FrameTree(QWidget* parent) : QWidget(parent) {
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   layout->addWidget(makeFilterRow());
+  refusal_ = new QLabel(this);
+  refusal_->setObjectName(QStringLiteral("filterRefusal"));
+  refusal_->setWordWrap(true);
+  refusal_->setContentsMargins(5, 0, 5, 2);
+  refusal_->hide();
+  layout->addWidget(refusal_);
   auto* splitter = new QSplitter(Qt::Vertical, this);
   layout->addWidget(splitter, 1);
   makeTree(splitter);
@@ -253,6 +259,10 @@ void FrameTree::applyFilter() {
   }
   filter_->setPalette(colors);
   filter_->setToolTip(pattern.isValid() ? QString() : pattern.errorString());
+  refusal_->setVisible(!pattern.isValid());
+  refusal_->setText(tr("No regular expression, at character %1: %2. Every frame is listed.")
+                        .arg(pattern.patternErrorOffset())
+                        .arg(pattern.errorString()));
   matches_.assign(items_.size(), true);
   std::vector<bool> listed(items_.size(), true);
   if (pattern.isValid() && !filter_->text().isEmpty()) {

@@ -81,6 +81,7 @@ class FrameTree : public QWidget {
   bool is_filling_ = false;   // boxes are set by us
   bool has_toggled_ = false;  // the click under way was upon a box
   QLineEdit* filter_ = nullptr;
+  QLabel* refusal_ = nullptr;  // of the filter
   QTreeWidget* tree_ = nullptr;
   ProblemList* problems_ = nullptr;
   FramePose* pose_ = nullptr;

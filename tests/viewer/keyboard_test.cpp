@@ -24,6 +24,7 @@
 #include "viewer/view/effect_panel.h"
 #include "viewer/view/view_history.h"
 #include "viewer/view/view_panel.h"
+#include "viewer/window/message_bar.h"
 #include "viewer/window/view_window.h"
 
 namespace stillframe::viewer {
@@ -182,6 +183,10 @@ TEST_F(KeyboardTest, F6GoesRoundThePanels) {
 
 TEST_F(KeyboardTest, ViewsAreSplitChangedDetachedAndClosedByKeys) {
   openActive();
+  key(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_EQ(window_->views().size(), 1U);
+  EXPECT_TRUE(window_->messageBar().text().contains(QStringLiteral("last view")));
+  window_->messageBar().hide();
   key(Qt::Key_Right, Qt::ControlModifier | Qt::ShiftModifier);
   key(Qt::Key_Down, Qt::ControlModifier | Qt::ShiftModifier);
   ASSERT_EQ(window_->views().size(), 3U);
@@ -203,7 +208,11 @@ TEST_F(KeyboardTest, ViewsAreSplitChangedDetachedAndClosedByKeys) {
   QWidget* const detached = window_->viewSet().windows().front();
   EXPECT_EQ(detached->windowTitle(), QStringLiteral("View 2 of test - Stillframe"));
   ASSERT_TRUE(QTest::qWaitForWindowActive(detached));
-  view(1).setFocus();
+  activate();  // the frames panel is about the view in the other window
+  window_->frameTree().filter().setFocus();
+  key(Qt::Key_Escape);
+  ASSERT_TRUE(QTest::qWaitForWindowActive(detached));
+  EXPECT_EQ(QApplication::focusWidget(), &view(1));
   key(Qt::Key_Right, Qt::ControlModifier | Qt::ShiftModifier);  // its own window has no menu
   ASSERT_EQ(window_->views().size(), 3U);
   EXPECT_EQ(detached->windowTitle(), QStringLiteral("Views 2, 3 of test - Stillframe"));

@@ -107,6 +107,7 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   buildShortcuts(*this);
   connect(views_, &ViewSet::added, this, [this](ViewPanel* panel) { connectView(*panel); });
   connect(views_, &ViewSet::windowAdded, this, [this](ViewWindow* window) { buildShortcuts(*window); });
+  connect(views_, &ViewSet::refused, messages_, &MessageBar::warn);
   connect(views_, &ViewSet::arranged, this, &InspectorWindow::onArranged);
   if (options_.layout) {
     restore(*options_.layout);

@@ -123,6 +123,7 @@ void InspectorWindow::buildShortcuts(QWidget& window) {
     if (view.hasFocus()) {
       view.findChild<HelpOverlay*>()->setShown(false);
     }
+    activeView().activateWindow();
     view.setFocus();
   });
   if (&window == this) {  // the views have theirs: what the frames panel changes is a setting of the active one

@@ -89,6 +89,7 @@ ViewArea& ViewSet::areaOf(const ViewPanel& panel) const {
 bool ViewSet::takeOut(ViewPanel& panel) {
   ViewArea& area = areaOf(panel);
   if (&area == &main_ && main_.panels().size() == 1) {
+    Q_EMIT refused(tr("This is the last view of the main window: it stays there."));
     return false;
   }
   area.take(panel);

@@ -51,6 +51,8 @@ class ViewSet : public QObject {
   void added(stillframe::viewer::ViewPanel* panel);
   void windowAdded(stillframe::viewer::ViewWindow* window);
   void activeChanged();
+  /// What was asked for is not done: one sentence.
+  void refused(const QString& message);
   /// Views were added, moved, closed, or restored.
   void arranged();
 

@@ -4,6 +4,7 @@
 #include <osg/Geometry>
 #include <osg/NodeVisitor>
 #include <osg/Transform>
+#include <ranges>
 
 #include "scenegraph/geometry.h"
 #include "scenegraph/pipeline/point_boxes.h"
@@ -143,8 +144,8 @@ class PointCollector : public osg::NodeVisitor {
     return 1.0F;
   }
   [[nodiscard]] const osg::StateSet* stateOfPath() const {
-    for (auto node = getNodePath().rbegin(); node != getNodePath().rend(); ++node) {
-      const osg::StateSet* const state = (*node)->getStateSet();
+    for (const osg::Node* const node : std::views::reverse(getNodePath())) {
+      const osg::StateSet* const state = node->getStateSet();
       if (state != nullptr && state->getUniform("u_color_mode") != nullptr) {
         return state;
       }

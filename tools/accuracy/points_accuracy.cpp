@@ -182,7 +182,7 @@ class Subject {
     }
     const auto& points = renderer_.lastFrame().points;
     row.share = points ? points->share : std::min(1.0, static_cast<double>(passes) / kPassesOfSample);
-    return seenOf(std::move(*picture));
+    return seenOf(*picture);
   }
 
  private:

@@ -37,8 +37,9 @@ scenegraph::VoxelGrid makeVoxels(std::uint32_t side, bool with_noise) {
   std::vector<double> floor(std::size_t{side} * side);
   const double scale = 256.0 / side;
   for (std::size_t i = 0; i < floor.size(); ++i) {
+    const std::size_t row = i / side;
     const double x = scale * static_cast<double>(i % side);
-    const double y = scale * static_cast<double>(i / side);
+    const double y = scale * static_cast<double>(row);
     floor[i] = 40.0 + 15.0 * std::sin(0.05 * x) * std::cos(0.04 * y);
   }
   const auto bytes = std::make_shared<std::vector<std::byte>>(std::size_t{grid.slice_stride} * side);

@@ -21,9 +21,8 @@ class Executor {
 /// Runs each job inside submit(), and no spare one: tests and headless rendering, where the first picture must be the
 /// complete one.
 [[nodiscard]] std::unique_ptr<Executor> makeSynchronousExecutor();
-/// `threads` workers, at least one, which stand back behind what is drawn, and one more of the lowest priority for
-/// spare jobs, each of which begins while the others have nothing to do. The destructor runs what is queued to its end,
-/// spare jobs not.
+/// `threads` workers, at least one, and one more of the lowest priority for spare jobs, each of which begins while the
+/// others have nothing to do. The destructor runs what is queued to its end, spare jobs not.
 [[nodiscard]] std::unique_ptr<Executor> makeThreadPoolExecutor(unsigned threads);
 
 }  // namespace stillframe::scenegraph

@@ -8,8 +8,6 @@
 #include <thread>
 #include <utility>
 
-#include "scenegraph/thread_priority.h"
-
 namespace stillframe::viewer {
 
 using scenegraph::Status;
@@ -71,7 +69,6 @@ void DatasetLoader::run(Job& job, const RecordingOpener& opener, const std::vect
     const std::scoped_lock lock(job.mutex);
     job.error = std::move(status);
   };
-  scenegraph::standBack(scenegraph::kBehindThePicture);
   try {
     auto recording = opener(files);
     if (!recording) {

@@ -85,10 +85,11 @@ void TransformLoader::take(const Progress& progress) {
 
 bool TransformLoader::decodeQueue(const Progress& progress, bool hold) {
   constexpr std::size_t kReportEvery = 256;
-  constexpr double kSlowMs =
-      2.0;  // a chunk was unpacked: what else it holds comes at once, the next may take long again
+  // A large chunk was unpacked: what else it holds comes at once, and is told at once, for the next will take as long.
+  constexpr double kSlowMs = 20.0;
   const std::uint64_t all = queue_.size();
   std::size_t since_slow = kReportEvery;
+  auto reported = std::chrono::steady_clock::now();
   while (queue_next_ < queue_.size()) {
     const auto start = std::chrono::steady_clock::now();
     decodeOne(queue_[queue_next_++]);
@@ -96,8 +97,10 @@ bool TransformLoader::decodeQueue(const Progress& progress, bool hold) {
     if (!hold && gathered_.size() >= kBatch) {
       insertGathered();
     }
-    const bool is_due = since_slow < kReportEvery || queue_next_ % kReportEvery == 0 || queue_next_ == all;
+    const bool is_due = since_slow < kReportEvery || queue_next_ % kReportEvery == 0 || queue_next_ == all ||
+                        millisecondsSince(reported) > kSlowMs;
     if (progress && is_due) {
+      reported = std::chrono::steady_clock::now();
       insertProvisionally();
       if (!progress(queue_next_, all)) {
         if (!hold) {

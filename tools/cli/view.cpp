@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -25,6 +26,8 @@ namespace stillframe::cli {
 namespace {
 
 constexpr int kMostViews = 9;
+constexpr double kLeastBudgetMs = 1.0;
+constexpr double kMostBudgetMs = 1000.0;
 
 struct ViewCommandOptions {
   explicit ViewCommandOptions(CLI::App& app) : effects(app) {}
@@ -39,6 +42,7 @@ struct ViewCommandOptions {
   std::string camera;
   std::string follow;
   std::string points = "auto";
+  std::optional<double> point_budget_ms;
   std::string layout;
   std::string screenshot;
   std::string theme;
@@ -136,6 +140,7 @@ Result<void> runView(const ViewCommandOptions& options) {
     return std::unexpected(points.error());
   }
   inspector.points = *points;
+  inspector.point_budget_ms = options.point_budget_ms;
   auto effects = options.effects.effects();
   if (!effects) {
     return std::unexpected(effects.error());
@@ -200,6 +205,15 @@ Command addViewCommand(CLI::App& app) {
   app.add_option("--follow", options->follow, "FRAME[:position|heading|pose]: the camera goes along with this frame")
       ->type_name("FRAME[:MODE]");
   app.add_option("--points", options->points, kPointsHelp)->type_name("WHO")->capture_default_str();
+  app.add_option(
+         "--point-budget", options->point_budget_ms,
+         "Milliseconds of a frame for points; what they do not suffice for comes with the next frames. Default: 33 "
+         "where OpenGL is software, else 12")
+      ->type_name("MS")
+      ->check([](const std::string& text) {  // a range takes what is no number for one
+        return std::isfinite(std::strtod(text.c_str(), nullptr)) ? std::string() : "'" + text + "' is no number";
+      })
+      ->check(CLI::Range(kLeastBudgetMs, kMostBudgetMs));
   app.add_option("--layer", options->layers, "TOPIC[:key=value,...]: settings of a layer; may be repeated")
       ->type_name("LAYER")
       ->allow_extra_args(false);

@@ -164,7 +164,8 @@ void SceneWidget::paintGL() {
   pipeline_->setView(view);
   pipeline_->setBackground(background_);
   pipeline_->setPointWay(point_way_);
-  pipeline_->setPointLimits({.budget_ms = is_software_ ? kSoftwareBudgetMs : kHardwareBudgetMs});
+  pipeline_->setPointLimits(
+      {.budget_ms = point_budget_ms_.value_or(is_software_ ? kSoftwareBudgetMs : kHardwareBudgetMs)});
   const auto drawn = pipeline_->render(defaultFramebufferObject(), qRound(size_px.width()), qRound(size_px.height()));
   showProblem(drawn ? QString()
                     : tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(drawn.error().message)));
@@ -179,8 +180,9 @@ void SceneWidget::paintGL() {
   }
 }
 
-void SceneWidget::setPointWay(scenegraph::PointWay way) {
+void SceneWidget::setPointWay(scenegraph::PointWay way, std::optional<double> budget_ms) {
   point_way_ = way;
+  point_budget_ms_ = budget_ms;
   update();
 }
 

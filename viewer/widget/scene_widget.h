@@ -24,7 +24,6 @@
 #include "viewer/widget/update_gate.h"
 
 class QLabel;
-
 namespace stillframe::viewer {
 class HelpOverlay;
 class PictureJob;
@@ -89,7 +88,7 @@ class SceneWidget : public QOpenGLWidget {
   void setBackground(const scenegraph::Color& background);
   void setEffects(const scenegraph::ViewEffects& effects);
   [[nodiscard]] const scenegraph::ViewEffects& effects() const noexcept { return effects_; }
-  void setPointWay(scenegraph::PointWay way);
+  void setPointWay(scenegraph::PointWay way, std::optional<double> budget_ms = {});  ///< none: what suits the OpenGL
   /// A picture of what is shown, of any size, whole; blocks until it is drawn. "NotDrawn" before the first frame, and
   /// what scenegraph::checkPicture() refuses.
   [[nodiscard]] std::expected<scenegraph::Picture, scenegraph::Status> takePicture(const PictureRequest& request);
@@ -186,6 +185,7 @@ class SceneWidget : public QOpenGLWidget {
   scenegraph::Color background_{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
   scenegraph::ViewEffects effects_;
   scenegraph::PointWay point_way_ = scenegraph::PointWay::Auto;
+  std::optional<double> point_budget_ms_;
   tf::TimePoint time_;
   bool wants_framing_ = true, has_framed_data_ = false, is_camera_touched_ = false;
   bool is_software_ = false, is_context_usable_ = false, is_resizing_ = false;  // software: the OpenGL that draws

@@ -27,6 +27,7 @@ struct InspectorOptions {
   scenegraph::FollowMode follow = scenegraph::FollowMode::Off;
   LayerChoices layers = {};
   scenegraph::PointWay points = scenegraph::PointWay::Auto;  ///< who draws opaque points
+  std::optional<double> point_budget_ms = {};                ///< of a frame; absent: what suits the renderer
   scenegraph::ViewEffects effects = {};                      ///< of views that no layout describes
   std::optional<scenegraph::Layout> layout = {};             ///< the views; what else is said here goes before it
   std::optional<std::filesystem::path> layout_file = {};     ///< where it came from and Save layout writes it to

@@ -200,7 +200,7 @@ void InspectorWindow::fillView(ViewPanel& panel) {
   if (options_.camera) {
     panel.view().setCameraKind(*options_.camera);
   }
-  panel.view().setPointWay(options_.points);
+  panel.view().setPointWay(options_.points, options_.point_budget_ms);
   if (options_.display_frame) {
     panel.view().setDisplayFrame(options_.display_frame);
     panel.view().setFollow(options_.follow);

@@ -68,6 +68,8 @@ TEST(Program, RefusesWhatItDoesNotUnderstand) {
       {"bench", "--only", "poses", "--svg", "views.svg"},
       {"bench", "--only", "luck"},
       {"view", "--views", "0"},
+      {"view", "--point-budget", "0"},
+      {"view", "--point-budget", "nan"},
   };
   for (const auto& arguments : mistakes) {
     const Outcome refused = run(folder.path(), arguments);

@@ -141,6 +141,7 @@ TEST_F(KeyboardTest, EnterGoesIntoTheEditorOfARowAndEscapeBackAndThenToTheView) 
 TEST_F(KeyboardTest, SpaceTicksTheBoxOfARow) {
   openActive();
   goToSetting("/points", "legend");
+  EXPECT_TRUE(layers().currentItem()->isSelected()) << "one sees where one is";
   const std::string before = settings("/points")["legend"];
   key(Qt::Key_Space);
   EXPECT_NE(settings("/points")["legend"], before);
@@ -161,6 +162,7 @@ TEST_F(KeyboardTest, EffectsAreReachedAsLayersAre) {
   key(Qt::Key_Space);
   EXPECT_TRUE(view().effects().isOn("edl"));
   key(Qt::Key_Down);
+  EXPECT_TRUE(panel.effectPanel().currentItem()->isSelected());
   key(Qt::Key_Return);
   EXPECT_TRUE(panel.effectPanel().isAncestorOf(QApplication::focusWidget()));
   EXPECT_NE(QApplication::focusWidget(), &panel.effectPanel());

@@ -196,11 +196,11 @@ LayerTree::Row LayerTree::addRow(const scenegraph::LayerSlot& slot) {
                      Qt::ItemIsDragEnabled);
   row.item->setCheckState(0, Qt::Checked);
   row.note = new QTreeWidgetItem(row.item);
-  row.note->setFlags(Qt::ItemIsEnabled);
+  row.note->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
   row.note->setFirstColumnSpanned(true);
   row.note->setData(0, LayerDelegate::kIsNote, true);
   row.cost = new QTreeWidgetItem(row.item);
-  row.cost->setFlags(Qt::ItemIsEnabled);
+  row.cost->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
   row.cost->setFirstColumnSpanned(true);
   row.cost->setData(0, LayerDelegate::kIsNote, true);
   row.cost->setToolTip(0, tr("What the layer costs; Draw times above takes the time to draw it, too"));

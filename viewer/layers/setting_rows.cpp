@@ -64,7 +64,7 @@ QTreeWidgetItem* SettingRows::addRow(QTreeWidgetItem& parent, const std::string&
   auto* item = new QTreeWidgetItem(&parent);
   item->setText(0, QString::fromStdString(label));
   item->setToolTip(0, QString::fromStdString(help));
-  item->setFlags(Qt::ItemIsEnabled);
+  item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
   if (&parent == &parent_) {
     items_.push_back(item);
   }
@@ -75,7 +75,7 @@ void SettingRows::addThing(const SettingSpec& spec) {
   Group& group = groups_[spec.group];
   if (group.item == nullptr) {
     group.item = addRow(parent_, spec.group, tr("All of them on or off").toStdString());
-    group.item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
+    group.item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
     group.item->setCheckState(0, Qt::Checked);
   }
   Thing& thing = group.things[spec.item];
@@ -84,7 +84,7 @@ void SettingRows::addThing(const SettingSpec& spec) {
   }
   if (spec.kind == SettingKind::Bool && thing.switch_key.empty()) {
     thing.switch_key = spec.key;
-    thing.item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
+    thing.item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
     thing.item->setCheckState(0, Qt::Checked);
   } else if (tree_.itemWidget(thing.item, 1) == nullptr) {
     addEditor(*thing.item, spec);

@@ -17,7 +17,7 @@ EffectPanel::EffectPanel(QWidget* parent) : QTreeWidget(parent) {
   setColumnCount(2);
   setHeaderHidden(true);
   setIndentation(14);
-  setSelectionMode(QAbstractItemView::NoSelection);
+  setSelectionMode(QAbstractItemView::SingleSelection);
   setFrameShape(QFrame::NoFrame);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   header()->setStretchLastSection(true);
@@ -36,13 +36,13 @@ void EffectPanel::addRow(const scenegraph::EffectType& type) {
   row.item = new QTreeWidgetItem(this);
   row.item->setText(0, toQString(type.label));
   row.item->setToolTip(0, toQString(type.help));
-  row.item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
+  row.item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
   row.item->setFirstColumnSpanned(true);
   for (const scenegraph::SettingSpec& spec : type.specs) {
     auto* item = new QTreeWidgetItem(row.item);
     item->setText(0, QString::fromStdString(spec.label));
     item->setToolTip(0, QString::fromStdString(spec.help));
-    item->setFlags(Qt::ItemIsEnabled);
+    item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
     auto* editor = new SettingEditor(spec, type.defaults.at(spec.key));
     setItemWidget(item, 1, editor);
     row.editors[spec.key] = editor;

@@ -65,6 +65,13 @@ TEST_F(FramesPanelTest, ABoxHidesItsFrameAndDoesNotMoveTheCamera) {
   EXPECT_TRUE(edited_.empty());
 }
 
+TEST_F(FramesPanelTest, EnterOnAFrameShowsItsPoseToo) {
+  panel_.tree().setCurrentItem(panel_.item("lidar"));
+  QTest::keyClick(&panel_.tree(), Qt::Key_Return);
+  EXPECT_TRUE(panel_.pose().text().contains(QStringLiteral("x 5.0000  y 0.0000  z 1.0000")))
+      << panel_.pose().text().toStdString();
+}
+
 TEST_F(FramesPanelTest, AClickOnTheNamePicksTheFrameAndShowsItsPose) {
   const QRect place = panel_.tree().visualItemRect(panel_.item("lidar"));
   QTest::mouseClick(panel_.tree().viewport(), Qt::LeftButton, {}, {place.left() + 60, place.center().y()});

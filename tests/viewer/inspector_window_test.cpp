@@ -2,10 +2,13 @@
 
 #include <QDragEnterEvent>
 #include <QDropEvent>
+#include <QFileInfo>
 #include <QMimeData>
 #include <QStatusBar>
+#include <QTemporaryDir>
 #include <QTest>
 #include <QUrl>
+#include <cmath>
 
 #include "tests/viewer/open_window.h"
 #include "tests/viewer/viewer_support.h"
@@ -129,6 +132,34 @@ TEST_F(InspectorWindowTest, SplitViewTakesOverTheStateAndGoesItsOwnWay) {
   EXPECT_EQ(window_->views().size(), 1U);
   window_->closeView(*window_->views().front());
   EXPECT_EQ(window_->views().size(), 1U) << "the last view stays";
+}
+
+TEST_F(InspectorWindowTest, AScreenshotHasEveryPoint) {
+  constexpr int kPoints = 2'500'000;  // more than one frame of software OpenGL draws
+  test::CloudBuilder cloud("map");
+  cloud.xyz();
+  for (int i = 0; i < kPoints; ++i) {
+    cloud.point({std::sin(i * 0.37) * 20.0, std::sin(i * 0.73) * 20.0, std::sin(i * 1.17) * 5.0});
+  }
+  test::DatasetBuilder builder;
+  builder.topic("/cloud", scenegraph::ObjectType::PointCloud).at(1_s, cloud.build());
+  const auto dataset = builder.build();
+  const RecordingOpener opener = [&](const auto&) -> std::expected<OpenedRecording, scenegraph::Status> {
+    return OpenedRecording{dataset, [](const auto& progress) { progress(1.0); }};
+  };
+  const QTemporaryDir folder;
+  std::vector<QImage> pictures;
+  for (const char* const name : {"a.png", "b.png"}) {
+    const QString file = folder.filePath(QLatin1String(name));
+    InspectorWindow window(opener, {.files = {"cloud.mcap"}, .views = 2, .screenshot = file.toStdString()});
+    window.show();
+    ASSERT_TRUE(waitFor([&] { return QFileInfo::exists(file); }));
+    for (ViewPanel* const panel : window.views()) {
+      EXPECT_EQ(panel->view().pointShare(), 1.0);
+    }
+    pictures.emplace_back(file);
+  }
+  EXPECT_EQ(pictures[0], pictures[1]) << "none of them was half drawn";
 }
 
 TEST_F(InspectorWindowTest, ClickingAFrameLooksAtIt) {

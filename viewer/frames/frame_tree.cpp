@@ -126,8 +126,10 @@ void FrameTree::makeTree(QWidget* parent) {
       Q_EMIT framePicked(QString::fromStdString(nameOf(*row)));
     }
   });
-  connect(tree_, &QTreeWidget::itemActivated, this,
-          [this](QTreeWidgetItem* row) { Q_EMIT frameActivated(QString::fromStdString(nameOf(*row))); });
+  connect(tree_, &QTreeWidget::itemActivated, this, [this](QTreeWidgetItem* row) {
+    pose_->choose(std::nullopt, nameOf(*row));  // by Enter, no click has
+    Q_EMIT frameActivated(QString::fromStdString(nameOf(*row)));
+  });
 }
 
 void FrameTree::setDataset(std::shared_ptr<const scenegraph::Dataset> dataset) {

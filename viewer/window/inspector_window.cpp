@@ -294,7 +294,7 @@ void InspectorWindow::onFailed(const scenegraph::Status& status) {
 bool InspectorWindow::isComplete() const {
   return dataset_ != nullptr && !is_loading_ && std::ranges::all_of(views(), [](ViewPanel* panel) {
            return panel->view().framesDrawn() > 0 && panel->view().scene() != nullptr &&
-                  !panel->view().scene()->isPending();
+                  !panel->view().scene()->isPending() && panel->view().pointShare() >= 1.0;
          });
 }
 
@@ -307,9 +307,13 @@ void InspectorWindow::takeScreenshotWhenComplete() {
     connect(&panel->view(), &QOpenGLWidget::frameSwapped, this, &InspectorWindow::takeScreenshotWhenComplete,
             static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::UniqueConnection));
   }
-  if (isComplete()) {
+  if (!isComplete()) {
+    return;
+  }
+  const QPixmap picture = grab();  // draws the views once more
+  if (isComplete()) {              // else that was the first frame of what has just come
     const auto file = *std::exchange(options_.screenshot, std::nullopt);
-    if (grab().save(QString::fromStdString(file.string()))) {
+    if (picture.save(QString::fromStdString(file.string()))) {
       close();
     } else {
       failUnattended(tr("cannot write %1").arg(QString::fromStdString(file.string())));

@@ -58,7 +58,7 @@ class InspectorWindow : public QMainWindow {
   [[nodiscard]] MessageBar& messageBar() noexcept { return *messages_; }
   [[nodiscard]] const std::shared_ptr<scenegraph::Dataset>& dataset() const noexcept { return dataset_; }
   [[nodiscard]] bool isLoading() const noexcept { return is_loading_; }
-  /// Whether everything is loaded, decoded and drawn.
+  /// Whether everything is loaded, decoded and drawn, down to the last point.
   [[nodiscard]] bool isComplete() const;
 
  Q_SIGNALS:

@@ -87,6 +87,22 @@ TEST(LayerCounts, AreInTheSingularForOne) {
   EXPECT_EQ(counted(2, "entities"), "2 entities");
 }
 
+TEST_F(LayerPanelTest, ARowBeginsWithTheReasonAndTheRowBeneathHasTheWholeSentence) {
+  test::DatasetBuilder builder;
+  builder.topic("/points", scenegraph::ObjectType::PointCloud).failsAt(1_s, "NoSense");
+  scenegraph::Scene scene{builder.build(), nodes::layerTypes(), *executor_};
+  ASSERT_TRUE(scene.addLayer("/points"));
+  scene.update(tf::TimePoint{2_s});
+  scene.update(tf::TimePoint{2_s});
+  tree_.setScene(&scene);
+  const std::string& sentence = scene.findLayer("/points")->layer->status().message;
+  EXPECT_TRUE(sentence.starts_with("'/points' at 1.000000000 s: ")) << sentence;
+  EXPECT_TRUE(sentence.ends_with(tree_.item("/points")->text(1).toStdString()));
+  EXPECT_TRUE(tree_.item("/points")->text(1).startsWith(QStringLiteral("made to fail")));
+  EXPECT_EQ(tree_.item("/points")->child(0)->text(0).toStdString(), sentence);
+  tree_.setScene(nullptr);
+}
+
 TEST_F(LayerPanelTest, ShowsWhyALayerIsNotDrawnInWordsThatCanBeCopied) {
   ASSERT_TRUE(scene_.addLayer("/points").has_value());
   panel_.setScene(&scene_);

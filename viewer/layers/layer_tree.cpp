@@ -3,6 +3,7 @@
 #include <QDropEvent>
 #include <QHeaderView>
 #include <QLocale>
+#include <QRegularExpression>
 #include <QScrollBar>
 #include <QSignalBlocker>
 #include <algorithm>
@@ -23,6 +24,12 @@ namespace {
 using scenegraph::StatusLevel;
 
 QString toQString(std::string_view text) { return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())); }
+
+/// Without "'TOPIC' at TIME s: ": the row is of that topic, and the time is the tracker's or a little earlier.
+QString reason(const QString& sentence) {
+  static const QRegularExpression place(QStringLiteral("^'[^']*' at -?\\d+\\.\\d+ s: "));
+  return QString(sentence).remove(place);
+}
 
 /// A sentence as long as a row has room for; the rest is beneath it, and in the tool tip.
 QString beginning(const QString& sentence) {
@@ -52,7 +59,7 @@ QString statusLine(const scenegraph::Layer& layer) {
   }
   const scenegraph::Status& status = layer.status();
   if (status.level >= StatusLevel::Warn) {
-    return beginning(QString::fromStdString(status.message.empty() ? status.code : status.message));
+    return beginning(reason(QString::fromStdString(status.message.empty() ? status.code : status.message)));
   }
   QStringList parts;
   if (const auto counts = layer.counts(); !counts.empty()) {

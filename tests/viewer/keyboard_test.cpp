@@ -12,6 +12,7 @@
 
 #include "tests/viewer/open_window.h"
 #include "tests/viewer/viewer_support.h"
+#include "viewer/frames/frame_picker.h"
 #include "viewer/frames/frame_tree.h"
 #include "viewer/layers/editor_keys.h"
 #include "viewer/layers/layer_panel.h"
@@ -136,6 +137,24 @@ TEST_F(KeyboardTest, EnterGoesIntoTheEditorOfARowAndEscapeBackAndThenToTheView) 
   key(Qt::Key_Escape);
   key(Qt::Key_Escape);
   EXPECT_EQ(QApplication::focusWidget(), &view());
+}
+
+TEST_F(KeyboardTest, AFrameThatIsHalfTypedIsForgottenAWholeOneIsTaken) {
+  openActive();
+  FramePicker& picker = window_->views().front()->framePicker();
+  picker.setFocus();
+  picker.lineEdit()->selectAll();
+  QTest::keyClicks(picker.lineEdit(), QStringLiteral("xyz"));
+  key(Qt::Key_Tab);
+  EXPECT_NE(QApplication::focusWidget(), &picker);
+  EXPECT_EQ(picker.currentText(), QStringLiteral("auto (map)")) << "the frame in use";
+  EXPECT_EQ(view().scene()->fixedFrame(), "map");
+  picker.setFocus();
+  picker.lineEdit()->selectAll();
+  QTest::keyClicks(picker.lineEdit(), QStringLiteral("base_link"));
+  key(Qt::Key_Return);
+  EXPECT_EQ(picker.currentText(), QStringLiteral("base_link"));
+  EXPECT_EQ(view().scene()->fixedFrame(), "base_link");
 }
 
 TEST_F(KeyboardTest, SpaceTicksTheBoxOfARow) {

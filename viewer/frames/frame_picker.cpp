@@ -1,6 +1,7 @@
 #include "viewer/frames/frame_picker.h"
 
 #include <QCompleter>
+#include <QFocusEvent>
 #include <QLineEdit>
 #include <QListView>
 #include <QSignalBlocker>
@@ -89,6 +90,14 @@ void FramePicker::showCurrent() {
   lineEdit()->setPalette(colors);
   setToolTip(is_missing_ ? tr("%1 \"%2\" does not exist in this recording").arg(what_, QString::fromStdString(*chosen_))
                          : tr("%1: %2. Type to search.").arg(what_, meaning_));
+}
+
+/// Left half typed, it would name a frame that is not the one in use.
+void FramePicker::focusOutEvent(QFocusEvent* event) {
+  QComboBox::focusOutEvent(event);
+  if (lineEdit()->isModified() && event->reason() != Qt::PopupFocusReason) {
+    showCurrent();
+  }
 }
 
 void FramePicker::pickText() {

@@ -27,6 +27,9 @@ class FramePicker : public QComboBox {
   /// The user chose a frame by hand, or automatic choice (nullopt).
   void picked(const std::optional<std::string>& frame);
 
+ protected:
+  void focusOutEvent(QFocusEvent* event) override;
+
  private:
   void pickText();
   void showCurrent();

@@ -30,6 +30,10 @@ void selectTextureUnits(std::uint32_t unit, std::uint32_t client_unit) {
   glClientActiveTexture(GL_TEXTURE0 + client_unit);
 }
 
+void clearColor(std::uint32_t fbo, const std::array<float, 4>& rgba) {
+  glClearNamedFramebufferfv(fbo, GL_COLOR, 0, rgba.data());
+}
+
 void finish() { glFinish(); }
 
 bool isEnabled(std::uint32_t capability) { return glIsEnabled(capability) == GL_TRUE; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +12,8 @@ void bindFramebuffer(std::uint32_t fbo);
 /// For textures and, in the compatibility profile, for texture coordinates.
 void selectTextureUnits(std::uint32_t unit, std::uint32_t client_unit);
 [[nodiscard]] bool isEnabled(std::uint32_t capability);
+/// All of a framebuffer's colours.
+void clearColor(std::uint32_t fbo, const std::array<float, 4>& rgba);
 /// Waits until all that was asked for is drawn.
 void finish();
 /// Status of a framebuffer with these two textures; 0 when it can be drawn into.

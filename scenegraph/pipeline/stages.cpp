@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <osg/BlendFunc>
 #include <osg/ClipControl>
 #include <osg/Depth>
@@ -21,6 +22,8 @@ namespace stillframe::scenegraph {
 namespace {
 
 namespace glsl = shaders::stillframe_render;
+
+constexpr GLbitfield kSceneTargets = GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT;
 
 GLint internalFormat(TargetFormat format) {
   switch (format) {
@@ -66,23 +69,26 @@ osg::ref_ptr<osg::Camera> makeTargetCamera(int order, int width_px, int height_p
   return camera;
 }
 
-/// Hands the blended things that were culled to `transparency`.
+/// Hands the blended things that were culled to `transparency`, and all to `steps`.
 // NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): OSG counts references
-class AdoptBlended : public osg::NodeCallback {
+class AdoptCulled : public osg::NodeCallback {
  public:
-  explicit AdoptBlended(const osg::ref_ptr<Transparency>& transparency) : transparency_(transparency) {}
+  AdoptCulled(const osg::ref_ptr<Transparency>& transparency, const osg::ref_ptr<SceneSteps>& steps)
+      : transparency_(transparency), steps_(steps) {}
   void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
     traverse(node, visitor);
     if (osgUtil::CullVisitor* const cull = visitor->asCullVisitor()) {
       transparency_->adopt(*cull);
+      steps_->adopt(*cull);
     }
   }
 
  protected:
-  ~AdoptBlended() override = default;
+  ~AdoptCulled() override = default;
 
  private:
   osg::ref_ptr<Transparency> transparency_;
+  osg::ref_ptr<SceneSteps> steps_;
 };
 
 Status unknownInput(const PostPass& pass, const std::string& input) {
@@ -196,7 +202,7 @@ void Stages::addScene(osg::Group& root, const PostChain& chain) {
   scene_camera_->setName("scene");
   scene_camera_->attach(osg::Camera::COLOR_BUFFER, target(sceneTarget()));
   scene_camera_->attach(osg::Camera::DEPTH_BUFFER, target(depthTarget()));
-  scene_camera_->setClearMask(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  scene_camera_->setClearMask(kSceneTargets);
   scene_camera_->setClearDepth(0.0);
   osg::StateSet& state = *scene_camera_->getOrCreateStateSet();
   state.setAttribute(new osg::ClipControl{osg::ClipControl::LOWER_LEFT, osg::ClipControl::ZERO_TO_ONE});
@@ -207,7 +213,8 @@ void Stages::addScene(osg::Group& root, const PostChain& chain) {
   state.addUniform(new osg::Uniform{"u_viewport_height_px", static_cast<float>(height)});
   scene_camera_->addChild(&root);
   transparency_ = new Transparency{width, height, samples_, target(depthTarget()), options_.blend};
-  scene_camera_->setCullCallback(new AdoptBlended{transparency_});
+  steps_ = new SceneSteps;
+  scene_camera_->setCullCallback(new AdoptCulled{transparency_, steps_});
   group_->addChild(scene_camera_);
   if (samples_ > 1) {
     state.setMode(GL_MULTISAMPLE, osg::StateAttribute::ON);
@@ -306,6 +313,22 @@ void Stages::startSubFrame(int index) {
   const glm::dvec2 shift = subPixelShift(index, sub_frames_);
   scene_camera_->setProjectionMatrix(
       toOsg(shiftedByPixels(clip_from_eye_, shift, options_.width_px, options_.height_px)));
+}
+
+void Stages::showOnly(std::size_t index, bool clears) {
+  scene_camera_->setClearMask(clears ? kSceneTargets : 0U);
+  for (unsigned i = 0; i < group_->getNumChildren(); ++i) {
+    group_->getChild(i)->setNodeMask(i == index ? ~0U : 0U);
+  }
+}
+
+void Stages::showAll() {
+  scene_camera_->setClearMask(kSceneTargets);
+  steps_->setBudget(std::numeric_limits<double>::infinity(), false);
+  steps_->begin();
+  for (unsigned i = 0; i < group_->getNumChildren(); ++i) {
+    group_->getChild(i)->setNodeMask(~0U);
+  }
 }
 
 void Stages::release(osg::State& state) {

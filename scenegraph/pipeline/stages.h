@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <expected>
 #include <map>
@@ -12,6 +13,7 @@
 
 #include "scenegraph/camera/camera.h"
 #include "scenegraph/pipeline/post_chain.h"
+#include "scenegraph/pipeline/scene_steps.h"
 #include "scenegraph/pipeline/transparency.h"
 #include "scenegraph/settings.h"
 #include "scenegraph/status.h"
@@ -49,6 +51,12 @@ class Stages {
   /// Frames that one picture takes; each begins with startSubFrame().
   [[nodiscard]] int subFrames() const noexcept { return sub_frames_; }
   void startSubFrame(int index);
+  /// Cameras and steps one after the other: the scene first, then its passes, present last.
+  [[nodiscard]] std::size_t count() const { return group_->getNumChildren(); }
+  /// The next frame draws the one of them alone; `clears` the scene's targets, where it is the scene.
+  void showOnly(std::size_t index, bool clears);
+  void showAll();
+  [[nodiscard]] SceneSteps& steps() noexcept { return *steps_; }
   /// The graph lets go of the scene and frees its own GL objects.
   void release(osg::State& state);
 
@@ -77,6 +85,7 @@ class Stages {
   osg::ref_ptr<osg::Group> group_;
   osg::ref_ptr<osg::Camera> scene_camera_;
   osg::ref_ptr<Transparency> transparency_;
+  osg::ref_ptr<SceneSteps> steps_;
   osg::ref_ptr<osg::Camera> averaging_;
   std::vector<osg::ref_ptr<osg::Node>> after_averaging_;
   std::vector<osg::ref_ptr<osg::StateSet>> pass_states_;

@@ -8,20 +8,14 @@
 #include <osg/Camera>
 #include <osg/GLObjects>
 #include <osg/Texture>
-#include <osgViewer/GraphicsWindow>
 #include <osgViewer/Renderer>
-#include <osgViewer/Viewer>
 
 #include "scenegraph/buffer_patches.h"
 #include "scenegraph/geometry.h"
 #include "scenegraph/osg_matrix.h"
 #include "scenegraph/pipeline/compute_points.h"
 #include "scenegraph/pipeline/gl_context_info.h"
-#include "scenegraph/pipeline/gl_target.h"
-#include "scenegraph/pipeline/id_hits.h"
-#include "scenegraph/pipeline/id_pass.h"
-#include "scenegraph/pipeline/point_collection.h"
-#include "scenegraph/pipeline/stages.h"
+#include "scenegraph/pipeline/view_pipeline_impl.h"
 #include "scenegraph/stopwatch.h"
 
 namespace stillframe::scenegraph {
@@ -33,53 +27,6 @@ constexpr std::size_t kPointsThatPayOnAGpu = 1'000'000;  // fewer are drawn as p
 constexpr double kMostPixels = 1 << 24;                  // at 20 bytes each
 
 }  // namespace
-
-struct ViewPipeline::Impl {
-  osg::ref_ptr<osg::Group> root;
-  CameraView view;
-  Color background;
-  PostChain chain;
-  glm::dmat4 projection_matrix{1.0};
-  std::vector<std::string> passes;
-
-  osg::ref_ptr<osgViewer::Viewer> viewer;
-  osg::ref_ptr<osgViewer::GraphicsWindowEmbedded> window;
-  // Remade when the size, the structure of the chain or the kind of output change.
-  std::optional<Stages> stages;
-  int width_px = 0;
-  int height_px = 0;
-  bool presents = false;
-  BlendLimits blend;
-  PointWay point_way = PointWay::Auto;
-  PointLimits point_limits;
-  double rest_ms = 0.0;  // of a frame beside its points, measured where there is a budget for both
-  bool is_software = false;
-  osg::ref_ptr<osg::Group> content;         // the root, and the picture of the points
-  std::unique_ptr<PointStage> point_stage;  // none before there are points for it
-  PointWay stage_way = PointWay::OpenGl;    // whose it is
-  std::optional<PointProgress> point_progress;
-  std::unique_ptr<IdPass> id_pass;  // none before something is picked
-  bool is_chain_new = false;        // setPostChain() needs no context, the next draw() has one
-
-  [[nodiscard]] unsigned contextId() const { return window->getState()->getContextID(); }
-  void makeViewer();
-  void setSceneData(osg::Node* scene);
-  std::expected<void, Status> makeStages();
-  void dropStages();
-  void adoptGlState();
-  [[nodiscard]] PointWay wayOf(const PointCollection& points) const;
-  void drawPoints();
-  void dropPoints();
-  void drawFrame();
-  [[nodiscard]] bool isPaced() const { return is_software && std::isfinite(point_limits.budget_ms); }
-  [[nodiscard]] GLuint textureId(const std::string& target) const;
-  [[nodiscard]] auto read(decltype(gl::readColor)* reader, const std::string& target, int first, int rows) const {
-    const bool has_rows = stages && first >= 0 && rows > 0 && rows <= height_px - first;
-    return has_rows ? reader(textureId(target), {width_px, first, rows}) : std::vector<float>{};
-  }
-  std::expected<void, Status> checkTargets() const;
-  std::expected<void, Status> draw(std::uint32_t output_fbo, int width, int height, bool present);
-};
 
 void ViewPipeline::Impl::makeViewer() {
   const auto info = inspectCurrentContext();
@@ -239,11 +186,8 @@ void ViewPipeline::Impl::dropPoints() {
   }
 }
 
-std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, int width, int height, bool present) {
-  if (width <= 0 || height <= 0) {
-    passes.clear();
-    return {};
-  }
+/// Stages of this size and kind. Returns whether they were made anew.
+std::expected<bool, Status> ViewPipeline::Impl::makeReady(int width, int height, bool present) {
   const bool resized = width != width_px || height != height_px;
   width_px = width;
   height_px = height;
@@ -262,16 +206,42 @@ std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, i
     dropStages();
     if (auto made = makeStages(); !made) {
       passes.clear();
-      return made;
+      return std::unexpected(made.error());
     }
   }
-  projection_matrix = projection(view, static_cast<double>(width) / height);
-  stages->setView(toOsg(view.eye_from_fixed), projection_matrix, background);
+  return remade;
+}
+
+/// Of the picture's goes each: what others did to the context meanwhile is taken over.
+void ViewPipeline::Impl::startPicture(std::uint32_t output_fbo) {
   window->setDefaultFboId(output_fbo);
   adoptGlState();
   if (BufferPatches* const patches = BufferPatches::find(*root)) {
     patches->upload(contextId());
   }
+}
+
+void ViewPipeline::Impl::namePasses() {
+  passes = stages->passes();
+  if (stages->transparency().isInUse()) {
+    passes.insert(passes.begin() + 1, "transparency");
+  }
+}
+
+std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, int width, int height, bool present) {
+  stepped.reset();
+  if (width <= 0 || height <= 0) {
+    passes.clear();
+    return {};
+  }
+  const auto remade = makeReady(width, height, present);
+  if (!remade) {
+    return std::unexpected(remade.error());
+  }
+  projection_matrix = projection(view, static_cast<double>(width) / height);
+  stages->setView(toOsg(view.eye_from_fixed), projection_matrix, background);
+  stages->showAll();
+  startPicture(output_fbo);
   for (int i = 0; i < stages->subFrames(); ++i) {
     stages->startSubFrame(i);
     drawPoints();
@@ -279,11 +249,8 @@ std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, i
     drawFrame();
   }
   gl::bindFramebuffer(output_fbo);
-  passes = stages->passes();
-  if (stages->transparency().isInUse()) {
-    passes.insert(passes.begin() + 1, "transparency");
-  }
-  return remade ? checkTargets() : std::expected<void, Status>{};
+  namePasses();
+  return *remade ? checkTargets() : std::expected<void, Status>{};
 }
 
 ViewPipeline::ViewPipeline(const osg::ref_ptr<osg::Group>& root) : impl_(std::make_unique<Impl>()) {
@@ -339,42 +306,6 @@ const std::vector<std::string>& ViewPipeline::passes() const noexcept { return i
 int ViewPipeline::samples() const noexcept { return impl_->stages ? impl_->stages->samples() : 1; }
 int ViewPipeline::blendedBands() const noexcept { return impl_->stages ? impl_->stages->transparency().bands() : 0; }
 const glm::dmat4& ViewPipeline::projectionMatrix() const noexcept { return impl_->projection_matrix; }
-
-std::vector<PickHit> ViewPipeline::pick(int x_px, int y_px, int reach_px) {
-  Impl& impl = *impl_;
-  const bool is_inside = x_px >= 0 && y_px >= 0 && x_px < impl.width_px && y_px < impl.height_px;
-  if (!impl.stages || impl.passes.empty() || !is_inside) {
-    return {};
-  }
-  const osg::Matrixd eye_from_fixed = toOsg(impl.view.eye_from_fixed);
-  const osg::Matrixd clip_from_eye = toOsg(impl.projection_matrix);
-  PointCollection points;
-  std::optional<IdPass::CpuPoints> cpu_points;
-  if (impl.point_progress && impl.stage_way == PointWay::Cpu) {
-    points = collectPoints(*impl.root, eye_from_fixed, clip_from_eye, impl.height_px);
-    cpu_points.emplace(impl.point_stage->keys(points, impl.width_px, impl.height_px), points);
-  }
-  impl.adoptGlState();
-  if (BufferPatches* const patches = BufferPatches::find(*impl.root)) {
-    patches->upload(impl.contextId());
-  }
-  if (impl.id_pass == nullptr) {
-    impl.id_pass = std::make_unique<IdPass>();
-  }
-  osg::RenderInfo info(impl.window->getState(), impl.viewer);
-  const int row_from_below = impl.height_px - 1 - y_px;
-  const auto samples = impl.id_pass->draw(*impl.root,
-                                          {.eye_from_fixed = eye_from_fixed,
-                                           .clip_from_eye = clip_from_eye,
-                                           .width_px = impl.width_px,
-                                           .height_px = impl.height_px,
-                                           .x_px = x_px,
-                                           .y_px = row_from_below,
-                                           .reach_px = reach_px},
-                                          info, cpu_points);
-  const auto ordered = inOrderOfMeaning(samples.value_or(std::vector<IdSample>{}), impl.id_pass->drawables());
-  return toHits(ordered, impl.id_pass->drawables(), impl.view, impl.width_px, impl.height_px, x_px, y_px);
-}
 
 bool ViewPipeline::hasPickTarget() const noexcept { return impl_->id_pass != nullptr; }
 

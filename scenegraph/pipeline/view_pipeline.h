@@ -60,6 +60,13 @@ class ViewPipeline {
   /// Errors: "TargetIncomplete", the driver cannot make targets of this size; "UnknownInput", a pass reads what nobody
   /// writes.
   std::expected<void, Status> render(std::uint32_t output_fbo, int width_px, int height_px);
+  /// The same picture in steps, each of about `budget_ms` (of a wait for OpenGL, where it is software) and at most one
+  /// drawable or pass more: true once all is drawn and present() shows it. View, points and background are those of
+  /// the first step; another size, chain or render() begin anew. The scene must stay as it is meanwhile. Averaged
+  /// sub-frames are one step.
+  std::expected<bool, Status> step(std::uint32_t output_fbo, int width_px, int height_px, double budget_ms);
+  /// Presents what step() has drawn, over the whole of `output_fbo`. Does nothing before that.
+  void present(std::uint32_t output_fbo);
   /// The same without present, for readColor(): what a picture file holds is not rounded to bytes on the way.
   std::expected<void, Status> renderLinear(int width_px, int height_px);
   /// Rows of the last render, counted from the bottom, bottom row first, as OpenGL has them; waits for the GPU.

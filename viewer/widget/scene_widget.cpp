@@ -17,9 +17,6 @@
 namespace stillframe::viewer {
 namespace {
 
-// For the points of a frame, so that the camera follows the hand with any cloud.
-constexpr double kSoftwareBudgetMs = 33.0;
-constexpr double kHardwareBudgetMs = 12.0;
 constexpr int kProgressMargin = 6;
 
 QLabel* makeOverlay(QWidget* parent) {
@@ -41,6 +38,7 @@ SceneWidget::SceneWidget(QWidget* parent)
   clock_.start();
   connect(this, &SceneWidget::cameraChanged, this, [this] { restored_.reset(); });
   setFormat(glFormat());
+  setUpdateBehavior(PartialUpdate);  // the last picture stays while the next is drawn
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(0, 0);
@@ -96,6 +94,10 @@ bool SceneWidget::applyTick() {
   if (scene_ == nullptr || !isVisible() || isLent()) {
     return false;  // showEvent() and takeBack() ask again
   }
+  if (steps_.at != FrameSteps::At::Rest) {
+    steps_.has_put_tick = true;  // endFrame() asks again
+    return false;
+  }
   bool is_changed = scene_->update(time_);
   is_changed = followTick() || is_changed;  // after the scene, so that camera and data are of one tick
   frameIfWanted();
@@ -132,6 +134,7 @@ void SceneWidget::initializeGL() {
       connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &SceneWidget::releaseGl, Qt::DirectConnection);
   const auto info = scenegraph::inspectCurrentContext();
   is_context_usable_ = info.has_value();
+  steps_ = {};
   is_software_ = info && info->is_software;
   if (!info) {
     qCWarning(glLog).noquote() << QString::fromStdString(info.error().message);
@@ -144,40 +147,6 @@ void SceneWidget::initializeGL() {
   }
   showProblem({});
   debug_log_.install();
-}
-
-void SceneWidget::paintGL() {
-  if (!is_context_usable_) {
-    return;
-  }
-  if (pipeline_ == nullptr) {
-    pipeline_ = std::make_unique<scenegraph::ViewPipeline>(
-        scene_ == nullptr ? osg::ref_ptr<osg::Group>(new osg::Group) : osg::ref_ptr<osg::Group>(&scene_->root()));
-    pipeline_->setPostChain(effects_.chain());
-  }
-  const QSizeF size_px = QSizeF(size()) * devicePixelRatioF();
-  walk();
-  const scenegraph::CameraView view = shownView();
-  if (scene_ != nullptr) {
-    scene_->setView(view, {size_px.width(), size_px.height(), devicePixelRatioF()});
-  }
-  pipeline_->setView(view);
-  pipeline_->setBackground(background_);
-  pipeline_->setPointWay(point_way_);
-  pipeline_->setPointLimits(
-      {.budget_ms = point_budget_ms_.value_or(is_software_ ? kSoftwareBudgetMs : kHardwareBudgetMs)});
-  const auto drawn = pipeline_->render(defaultFramebufferObject(), qRound(size_px.width()), qRound(size_px.height()));
-  showProblem(drawn ? QString()
-                    : tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(drawn.error().message)));
-  ++frames_drawn_;
-  showProgress();
-  picker_->place();
-  if (keys_.isWalking() || camera_.isMoving(now()) || pointShare() < 1.0) {
-    update();
-  }
-  for (; logged_messages_ < debug_log_.messages().size(); ++logged_messages_) {
-    qCWarning(glLog).noquote() << QString::fromStdString(debug_log_.messages()[logged_messages_]);
-  }
 }
 
 void SceneWidget::setPointWay(scenegraph::PointWay way, std::optional<double> budget_ms) {
@@ -205,6 +174,7 @@ void SceneWidget::sayProgress(const QString& text) {
 }
 
 void SceneWidget::releaseGl() {
+  steps_ = {};
   picture_.reset();
   draw_times_.reset();
   if (!is_context_usable_) {
@@ -223,6 +193,7 @@ void SceneWidget::releaseGl() {
 }
 
 void SceneWidget::dropPipeline() {
+  steps_ = {.is_blank = steps_.is_blank};
   picture_.reset();
   draw_times_.reset();
   if (pipeline_ == nullptr) {

@@ -20,6 +20,7 @@
 #include "scenegraph/scene.h"
 #include "viewer/widget/camera_gestures.h"
 #include "viewer/widget/camera_keys.h"
+#include "viewer/widget/frame_steps.h"
 #include "viewer/widget/selection.h"
 #include "viewer/widget/update_gate.h"
 
@@ -104,6 +105,9 @@ class SceneWidget : public QOpenGLWidget {
   /// changes meanwhile. The view stands still as long. Does nothing before the first frame.
   void measureDrawTimes();
   [[nodiscard]] std::uint64_t framesDrawn() const noexcept { return frames_drawn_; }
+  void update();  ///< a frame soon, drawn in steps from the event loop
+  /// What there is to see at this moment, drawn whole; blocks.
+  [[nodiscard]] QImage grabFramebuffer();
   [[nodiscard]] std::size_t glMessages() const noexcept { return gl_messages_ + debug_log_.count(); }
   /// What is shown instead of the scene, "" when the scene is shown.
   [[nodiscard]] QString problem() const;
@@ -149,22 +153,17 @@ class SceneWidget : public QOpenGLWidget {
   void leaveEvent(QEvent* event) override;
 
  private:
-  void releaseGl();
-  void dropPipeline();
+  void releaseGl(), dropPipeline();
   [[nodiscard]] bool isLent() const noexcept { return picture_ != nullptr || draw_times_ != nullptr; }
-  void takeBack();
-  void stepDrawTimes();
-  void frameIfWanted();
-  void onCameraMoved();
-  bool followTick();
-  bool obey(CameraCommand command);
-  bool steer(CameraCommand command);
-  void walk();
+  void takeBack(), stepDrawTimes();
+  void beginFrame(), continueFrame(), stepFrame(), endFrame();
+  void frameIfWanted(), onCameraMoved(), walk();
+  bool followTick(), obey(CameraCommand command), steer(CameraCommand command);
   [[nodiscard]] scenegraph::Follow::Pose displayPose() const;
   [[nodiscard]] double now() const { return static_cast<double>(clock_.nsecsElapsed()) * 1e-9; }
   void showProblem(const QString& text);
-  void showProgress();
-  void sayProgress(const QString& text);
+  [[nodiscard]] QString problemText(const scenegraph::Status& status) const;
+  void showProgress(), sayProgress(const QString& text);
   [[nodiscard]] double aspect() const;
   UpdateGate gate_;
   scenegraph::GlDebugLog debug_log_;
@@ -173,6 +172,7 @@ class SceneWidget : public QOpenGLWidget {
   std::unique_ptr<scenegraph::ViewPipeline> pipeline_;
   std::unique_ptr<PictureJob> picture_;                // that is being taken
   std::unique_ptr<scenegraph::DrawTimes> draw_times_;  // that are being measured
+  FrameSteps steps_;
   scenegraph::ViewCamera camera_;
   std::string camera_frame_;  // the fixed frame that camera_ counts in
   std::vector<scenegraph::SavedView> saved_views_;

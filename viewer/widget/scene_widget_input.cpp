@@ -25,6 +25,8 @@ void SceneWidget::resizeEvent(QResizeEvent* event) {
     const QScopedValueRollback resizing(is_resizing_, true);
     QOpenGLWidget::resizeEvent(event);
   }
+  steps_.at = FrameSteps::At::Rest;
+  steps_.is_blank = true;
   update();
   message_->setGeometry(rect());
   if (help_->isShown()) {

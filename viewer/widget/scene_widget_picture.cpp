@@ -110,6 +110,7 @@ scenegraph::Picture SceneWidget::endPicture() {
 
 /// The pipeline's targets are of another size now, and its chain may be.
 void SceneWidget::takeBack() {
+  steps_.at = FrameSteps::At::Rest;
   if (pipeline_ != nullptr) {
     pipeline_->setPostChain(effects_.chain());
   }

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenegraph/blending.h"
 #include "scenegraph/pipeline/offscreen_context.h"
 #include "tests/scenegraph/pipeline/shader_scene.h"
 
@@ -274,6 +275,51 @@ TEST_F(ViewPipelineTest, ReleasesTwiceAndDrawsOn) {
     pipeline_->releaseGl();
     EXPECT_EQ(LiveObjects::count(), before) << round;
   }
+}
+
+/// Four things, one of them blended, at different depths, and a pass.
+TEST_F(ViewPipelineTest, DrawsInStepsWhatItDrawsAtOnce) {
+  const Output output{64, 48};
+  root_->addChild(makeQuad(1, 1, 0, {1, 0, 0, 1}));
+  root_->addChild(makeQuad(0.5F, 2, 0.5F, {0, 1, 0, 1}));
+  const osg::ref_ptr<osg::Geode> blended = makeQuad(2, 0.5F, 1, {0, 0, 1, 0.5F});
+  setBlended(*blended->getOrCreateStateSet(), true);
+  root_->addChild(blended);
+  root_->addChild(makeShape(GL_POINTS, {{0, 0, 1.5F}, {-1, 1, 0}}, {{1, 1, 1, 1}}));
+  pipeline_->setPostChain({.passes = {makePass("invert", "scene", "1.0 - scene")}});
+  const auto picture = [&] {
+    std::vector<Rgb> pixels;
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        pixels.push_back(output.pixel(x, y));
+      }
+    }
+    return pixels;
+  };
+  present(output);
+  const std::vector<Rgb> at_once = picture();
+  const Names passes = pipeline_->passes();
+  const auto in_steps = [&](double budget_ms) {
+    int steps = 1;
+    for (auto drawn = pipeline_->step(output.id(), 64, 48, budget_ms); drawn && !*drawn; ++steps) {
+      EXPECT_EQ(picture(), at_once) << "nothing is shown before all is drawn";
+      drawn = pipeline_->step(output.id(), 64, 48, budget_ms);
+    }
+    pipeline_->present(output.id());
+    EXPECT_EQ(picture(), at_once);
+    EXPECT_EQ(pipeline_->passes(), passes);
+    return steps;
+  };
+  EXPECT_GE(in_steps(0.0), 5) << "a drawable or a pass each";
+  EXPECT_EQ(in_steps(1e6), 1);
+
+  // What was begun is left for a picture of another size, and for one that is drawn at once.
+  ASSERT_EQ(pipeline_->step(output.id(), 64, 48, 0.0), false);
+  ASSERT_EQ(pipeline_->step(output.id(), 32, 24, 1e6), true);
+  ASSERT_EQ(pipeline_->step(output.id(), 64, 48, 0.0), false);
+  present(output);
+  EXPECT_EQ(picture(), at_once);
+  EXPECT_GE(in_steps(0.0), 5);
 }
 
 TEST_F(ViewPipelineTest, LeaksNothingOverAThousandResizesAndToggles) {

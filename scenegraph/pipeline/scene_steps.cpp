@@ -1,0 +1,78 @@
+#include "scenegraph/pipeline/scene_steps.h"
+
+#include <cmath>
+
+#include "scenegraph/pipeline/gl_target.h"
+#include "scenegraph/stopwatch.h"
+
+namespace stillframe::scenegraph {
+
+void SceneSteps::setBudget(double budget_ms, bool waits) {
+  start_ = std::chrono::steady_clock::now();
+  budget_ms_ = budget_ms;
+  waits_ = waits;
+  is_used_up_ = false;
+  seen_ = 0;
+}
+
+void SceneSteps::adopt(osgUtil::CullVisitor& cull) {
+  others_.clear();
+  if (!std::isfinite(budget_ms_)) {
+    return;
+  }
+  // What is in no bin is drawn by the stage itself, which has no callback for it: it goes into the first one.
+  osgUtil::RenderBin& stage = *cull.getCurrentRenderBin();
+  osgUtil::RenderBin& first = *stage.find_or_insert(0, "RenderBin");
+  first.getStateGraphList().insert(first.getStateGraphList().begin(), stage.getStateGraphList().begin(),
+                                   stage.getStateGraphList().end());
+  stage.getStateGraphList().clear();
+  for (const auto& [number, bin] : stage.getRenderBinList()) {
+    others_[bin] = bin->getDrawCallback();
+    bin->setDrawCallback(this);
+  }
+}
+
+bool SceneSteps::isNext() { return seen_++ >= drawn_ && !is_used_up_; }
+
+void SceneSteps::countDrawn() {
+  ++drawn_;
+  if (waits_) {
+    gl::finish();
+  }
+  is_used_up_ = millisecondsSince(start_) > budget_ms_;
+}
+
+void SceneSteps::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& render_info,
+                                    osgUtil::RenderLeaf*& previous) {
+  const auto other = others_.find(bin);
+  const bool is_taken = other != others_.end() && other->second != nullptr;
+  if (is_taken || bin->getStateSet() != nullptr || !bin->getRenderBinList().empty()) {
+    if (!isNext()) {
+      return;
+    }
+    if (is_taken) {
+      other->second->drawImplementation(bin, render_info, previous);
+    } else {
+      bin->drawImplementation(render_info, previous);
+    }
+    countDrawn();
+    return;
+  }
+  const auto draw = [&](osgUtil::RenderLeaf* leaf) {
+    if (isNext()) {
+      leaf->render(render_info, previous);
+      previous = leaf;
+      countDrawn();
+    }
+  };
+  for (osgUtil::RenderLeaf* const leaf : bin->getRenderLeafList()) {
+    draw(leaf);
+  }
+  for (osgUtil::StateGraph* const graph : bin->getStateGraphList()) {
+    for (const auto& leaf : graph->_leaves) {
+      draw(leaf.get());
+    }
+  }
+}
+
+}  // namespace stillframe::scenegraph

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <osg/ref_ptr>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderBin>
+
+namespace stillframe::scenegraph {
+
+/// Draws the scene pass in several goes, each as long as a budget, what was drawn before being left out.
+///
+/// A go ends with the drawable that uses its budget up, so that it lasts as long as the budget and one drawable. The
+/// scene is culled in each; as long as nothing changes in it meanwhile, all goes together draw what one would have
+/// drawn, in the same order. What is blended (Transparency) counts as one drawable. Thread of the context only.
+// NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): OSG counts references
+class SceneSteps : public osgUtil::RenderBin::DrawCallback {
+ public:
+  /// A picture begins: nothing of it is drawn yet.
+  void begin() { drawn_ = 0; }
+  /// Of the next go, from now on. `waits`: OpenGL is waited for, as where it is software; else what was asked of it
+  /// counts alone.
+  void setBudget(double budget_ms, bool waits);
+  /// Whether the last go came to the scene's end.
+  [[nodiscard]] bool isDone() const noexcept { return !is_used_up_; }
+  /// To be called when `cull` has been through the scene, and all else that takes over a bin has.
+  void adopt(osgUtil::CullVisitor& cull);
+  void drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& render_info,
+                          osgUtil::RenderLeaf*& previous) override;
+
+ protected:
+  ~SceneSteps() override = default;
+
+ private:
+  [[nodiscard]] bool isNext();
+  void countDrawn();
+
+  std::map<const osgUtil::RenderBin*, osg::ref_ptr<osgUtil::RenderBin::DrawCallback>> others_;
+  std::chrono::steady_clock::time_point start_;
+  double budget_ms_ = std::numeric_limits<double>::infinity();
+  bool waits_ = false;
+  bool is_used_up_ = false;
+  std::size_t drawn_ = 0;  // of the picture
+  std::size_t seen_ = 0;   // in this go
+};
+
+}  // namespace stillframe::scenegraph

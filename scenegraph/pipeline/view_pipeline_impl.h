@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <osgViewer/GraphicsWindow>
+#include <osgViewer/Viewer>
+
+#include "scenegraph/pipeline/gl_target.h"
+#include "scenegraph/pipeline/id_pass.h"
+#include "scenegraph/pipeline/point_collection.h"
+#include "scenegraph/pipeline/stages.h"
+#include "scenegraph/pipeline/view_pipeline.h"
+
+namespace stillframe::scenegraph {
+
+/// What a ViewPipeline is made of; for its sources alone.
+struct ViewPipeline::Impl {
+  osg::ref_ptr<osg::Group> root;
+  CameraView view;
+  Color background;
+  PostChain chain;
+  glm::dmat4 projection_matrix{1.0};
+  std::vector<std::string> passes;
+
+  osg::ref_ptr<osgViewer::Viewer> viewer;
+  osg::ref_ptr<osgViewer::GraphicsWindowEmbedded> window;
+  // Remade when the size, the structure of the chain or the kind of output change.
+  std::optional<Stages> stages;
+  int width_px = 0;
+  int height_px = 0;
+  bool presents = false;
+  BlendLimits blend;
+  PointWay point_way = PointWay::Auto;
+  PointLimits point_limits;
+  double rest_ms = 0.0;  // of a frame beside its points, measured where there is a budget for both
+  bool is_software = false;
+  osg::ref_ptr<osg::Group> content;         // the root, and the picture of the points
+  std::unique_ptr<PointStage> point_stage;  // none before there are points for it
+  PointWay stage_way = PointWay::OpenGl;    // whose it is
+  std::optional<PointProgress> point_progress;
+  std::unique_ptr<IdPass> id_pass;  // none before something is picked
+  bool is_chain_new = false;        // setPostChain() needs no context, the next draw() has one
+  struct Stepped {
+    std::size_t stage = 0;  // that is drawn next
+    bool is_begun = false;  // the scene's targets are cleared
+  };
+  std::optional<Stepped> stepped;  // the picture that is being drawn in steps
+
+  [[nodiscard]] unsigned contextId() const { return window->getState()->getContextID(); }
+  void makeViewer();
+  void setSceneData(osg::Node* scene);
+  std::expected<void, Status> makeStages();
+  void dropStages();
+  void adoptGlState();
+  [[nodiscard]] PointWay wayOf(const PointCollection& points) const;
+  void drawPoints();
+  void dropPoints();
+  void drawFrame();
+  [[nodiscard]] bool isPaced() const { return is_software && std::isfinite(point_limits.budget_ms); }
+  [[nodiscard]] GLuint textureId(const std::string& target) const;
+  [[nodiscard]] auto read(decltype(gl::readColor)* reader, const std::string& target, int first, int rows) const {
+    const bool has_rows = stages && first >= 0 && rows > 0 && rows <= height_px - first;
+    return has_rows ? reader(textureId(target), {width_px, first, rows}) : std::vector<float>{};
+  }
+  std::expected<void, Status> checkTargets() const;
+  std::expected<bool, Status> makeReady(int width, int height, bool present);
+  void startPicture(std::uint32_t output_fbo);
+  void namePasses();
+  std::expected<void, Status> draw(std::uint32_t output_fbo, int width, int height, bool present);
+};
+
+}  // namespace stillframe::scenegraph

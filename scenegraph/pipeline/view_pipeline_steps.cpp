@@ -1,0 +1,123 @@
+// What a picture of ViewPipeline takes beside drawing it at once: steps, and what lies at a pixel.
+#include <algorithm>
+#include <chrono>
+
+#include "scenegraph/buffer_patches.h"
+#include "scenegraph/osg_matrix.h"
+#include "scenegraph/pipeline/id_hits.h"
+#include "scenegraph/pipeline/view_pipeline_impl.h"
+#include "scenegraph/stopwatch.h"
+
+namespace stillframe::scenegraph {
+
+std::expected<bool, Status> ViewPipeline::step(std::uint32_t output_fbo, int width_px, int height_px,
+                                               double budget_ms) {
+  Impl& impl = *impl_;
+  if (width_px <= 0 || height_px <= 0) {
+    impl.stepped.reset();
+    impl.passes.clear();
+    return true;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto remade = impl.makeReady(width_px, height_px, true);
+  if (!remade) {
+    impl.stepped.reset();
+    return std::unexpected(remade.error());
+  }
+  Stages& stages = *impl.stages;
+  if (stages.subFrames() > 1) {  // what is averaged is drawn whole
+    if (const auto drawn = impl.draw(output_fbo, width_px, height_px, true); !drawn) {
+      return std::unexpected(drawn.error());
+    }
+    impl.stepped = Impl::Stepped{.stage = stages.count() - 1, .is_begun = true};
+    return true;
+  }
+  const bool is_new = *remade || !impl.stepped;
+  if (is_new) {
+    impl.stepped.emplace();
+    impl.projection_matrix = projection(impl.view, static_cast<double>(width_px) / height_px);
+    stages.setView(toOsg(impl.view.eye_from_fixed), impl.projection_matrix, impl.background);
+    stages.startSubFrame(0);
+    stages.steps().begin();
+  }
+  impl.startPicture(output_fbo);
+  if (is_new) {
+    impl.rest_ms = 0.0;  // is not drawn in the same step
+    impl.drawPoints();
+  }
+  Impl::Stepped& at = *impl.stepped;
+  for (bool is_first = !is_new; at.stage + 1 < stages.count(); is_first = false) {
+    const double left_ms = budget_ms - millisecondsSince(start);
+    if (!is_first && left_ms <= 0.0) {
+      return false;
+    }
+    stages.showOnly(at.stage, !at.is_begun);
+    stages.steps().setBudget(left_ms, impl.is_software);
+    impl.viewer->frame();
+    if (impl.is_software) {
+      gl::finish();
+    }
+    if (!at.is_begun) {
+      at.is_begun = true;
+      if (const auto checked = impl.checkTargets(); !checked && *remade) {
+        impl.stepped.reset();
+        return std::unexpected(checked.error());
+      }
+    }
+    if (at.stage > 0 || stages.steps().isDone()) {
+      ++at.stage;
+    }
+  }
+  return true;
+}
+
+void ViewPipeline::present(std::uint32_t output_fbo) {
+  Impl& impl = *impl_;
+  if (!impl.stages || !impl.stepped || impl.stepped->stage + 1 < impl.stages->count()) {
+    return;
+  }
+  impl.stepped.reset();
+  impl.stages->showOnly(impl.stages->count() - 1, false);
+  impl.startPicture(output_fbo);
+  impl.viewer->frame();
+  gl::bindFramebuffer(output_fbo);
+  impl.namePasses();
+}
+
+std::vector<PickHit> ViewPipeline::pick(int x_px, int y_px, int reach_px) {
+  Impl& impl = *impl_;
+  const bool is_inside = x_px >= 0 && y_px >= 0 && x_px < impl.width_px && y_px < impl.height_px;
+  if (!impl.stages || impl.passes.empty() || !is_inside) {
+    return {};
+  }
+  const osg::Matrixd eye_from_fixed = toOsg(impl.view.eye_from_fixed);
+  const osg::Matrixd clip_from_eye = toOsg(impl.projection_matrix);
+  PointCollection points;
+  std::optional<IdPass::CpuPoints> cpu_points;
+  if (impl.point_progress && impl.stage_way == PointWay::Cpu) {
+    points = collectPoints(*impl.root, eye_from_fixed, clip_from_eye, impl.height_px);
+    cpu_points.emplace(impl.point_stage->keys(points, impl.width_px, impl.height_px), points);
+  }
+  impl.adoptGlState();
+  if (BufferPatches* const patches = BufferPatches::find(*impl.root)) {
+    patches->upload(impl.contextId());
+  }
+  if (impl.id_pass == nullptr) {
+    impl.id_pass = std::make_unique<IdPass>();
+  }
+  osg::RenderInfo info(impl.window->getState(), impl.viewer);
+  const int row_from_below = impl.height_px - 1 - y_px;
+  const auto samples = impl.id_pass->draw(*impl.root,
+                                          {.eye_from_fixed = eye_from_fixed,
+                                           .clip_from_eye = clip_from_eye,
+                                           .width_px = impl.width_px,
+                                           .height_px = impl.height_px,
+                                           .x_px = x_px,
+                                           .y_px = row_from_below,
+                                           .reach_px = reach_px},
+                                          info, cpu_points);
+  const auto ordered = inOrderOfMeaning(samples.value_or(std::vector<IdSample>{}), impl.id_pass->drawables());
+  return toHits(ordered, impl.id_pass->drawables(), impl.view, impl.width_px, impl.height_px, x_px, y_px);
+}
+
+}  // namespace stillframe::scenegraph

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+
+namespace stillframe::viewer {
+
+/// Where the frame stands that a SceneWidget draws in steps, an event each, so that none keeps the window waiting. What
+/// was shown before stays until the frame is whole. GUI thread.
+struct FrameSteps {
+  enum class At : std::uint8_t {
+    Rest,      ///< no frame is being drawn
+    UnderWay,  ///< the next step is on its way
+    Ready,     ///< all is drawn but what puts it into the widget
+  };
+  static constexpr double kBudgetMs = 20.0;  ///< of a step; a drawable that has been begun comes on top
+
+  At at = At::Rest;
+  bool is_wanted = true;      ///< something has changed since the last frame was begun
+  bool is_first = true;       ///< of this context: shaders are made, and take long
+  bool is_blank = true;       ///< nothing is shown that could stay
+  bool is_whole = false;      ///< somebody waits for the next frame
+  bool has_put_tick = false;  ///< a tick was put off: the scene stands still meanwhile
+};
+
+}  // namespace stillframe::viewer

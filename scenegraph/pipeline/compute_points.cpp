@@ -98,6 +98,7 @@ ComputePoints::ComputePoints(osg::State& state)
       buffers_(kOwnBuffers),
       color_(makePointTexture(GL_RGBA16F_ARB)),
       depth_(makePointTexture(GL_R32F)) {
+  state_.initializeExtensionProcs();  // OSG's first picture would do it, and this may come before
   glCreateBuffers(static_cast<GLsizei>(buffers_.size()), buffers_.data());
   const std::array<float, 256>& bytes = PointShading::linearOfBytes();
   glNamedBufferData(buffers_[kBytesBuffer], sizeof bytes, bytes.data(), GL_STATIC_DRAW);

@@ -258,6 +258,17 @@ TEST_F(PointStageSteps, GoOnWhereTimeRanOutUntilThePictureIsWhole) {
   EXPECT_EQ(colors(stepwise), colors(whole));
 }
 
+TEST_F(PointStageSteps, ComputeDrawsTheFirstPictureOfAContext) {
+  const auto renderer = scenegraph::OffscreenRenderer::create();
+  ASSERT_TRUE(renderer);
+  const auto drawn = (*renderer)->render(scene_->root(), PointRasterisers::alongX({0, 0, 0}),
+                                         {.width = 64, .height = 64, .points = scenegraph::PointWay::Compute});
+  ASSERT_TRUE(drawn) << drawn.error().message;
+  ASSERT_TRUE((*renderer)->lastFrame().points);
+  EXPECT_EQ((*renderer)->lastFrame().points->by, "compute");
+  EXPECT_TRUE(std::ranges::any_of(drawn->depth_m, [](float depth) { return std::isfinite(depth); }));
+}
+
 /// Draws nothing, at once, and notes what it was asked for.
 class NotingDrawer final : public scenegraph::PointDrawer {
  public:

@@ -1,6 +1,8 @@
 #include "scenegraph/pipeline/scene_steps.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scenegraph/pipeline/gl_target.h"
 #include "scenegraph/stopwatch.h"
@@ -13,6 +15,8 @@ void SceneSteps::setBudget(double budget_ms, bool waits) {
   waits_ = waits;
   is_used_up_ = false;
   seen_ = 0;
+  begun_ = drawn_;
+  drawn_ms_ = 0.0;
 }
 
 void SceneSteps::adopt(osgUtil::CullVisitor& cull) {
@@ -32,14 +36,27 @@ void SceneSteps::adopt(osgUtil::CullVisitor& cull) {
   }
 }
 
-bool SceneSteps::isNext() { return seen_++ >= drawn_ && !is_used_up_; }
+double& SceneSteps::costOf(std::size_t drawable) {
+  costs_ms_.resize(std::max(costs_ms_.size(), drawable + 1));
+  return costs_ms_[drawable];
+}
+
+bool SceneSteps::isNext() {
+  const std::size_t index = seen_++;
+  if (index < drawn_ || is_used_up_) {
+    return false;
+  }
+  is_used_up_ = drawn_ > begun_ && millisecondsSince(start_) + costOf(index) > budget_ms_;
+  return !is_used_up_;
+}
 
 void SceneSteps::countDrawn() {
-  ++drawn_;
   if (waits_) {
     gl::finish();
   }
-  is_used_up_ = millisecondsSince(start_) > budget_ms_;
+  const double now_ms = millisecondsSince(start_);
+  costOf(drawn_++) = now_ms - std::exchange(drawn_ms_, now_ms);
+  is_used_up_ = now_ms > budget_ms_;
 }
 
 void SceneSteps::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& render_info,

@@ -7,12 +7,14 @@
 #include <osg/ref_ptr>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderBin>
+#include <vector>
 
 namespace stillframe::scenegraph {
 
 /// Draws the scene pass in several goes, each as long as a budget, what was drawn before being left out.
 ///
-/// A go ends with the drawable that uses its budget up, so that it lasts as long as the budget and one drawable. The
+/// A go ends with the drawable that uses its budget up, and before one that would, by what it took in the last picture:
+/// it lasts as long as the budget, or as the one drawable that takes longer. The
 /// scene is culled in each; as long as nothing changes in it meanwhile, all goes together draw what one would have
 /// drawn, in the same order. What is blended (Transparency) counts as one drawable. Thread of the context only.
 // NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): OSG counts references
@@ -35,6 +37,7 @@ class SceneSteps : public osgUtil::RenderBin::DrawCallback {
 
  private:
   [[nodiscard]] bool isNext();
+  [[nodiscard]] double& costOf(std::size_t drawable);
   void countDrawn();
 
   std::map<const osgUtil::RenderBin*, osg::ref_ptr<osgUtil::RenderBin::DrawCallback>> others_;
@@ -42,8 +45,11 @@ class SceneSteps : public osgUtil::RenderBin::DrawCallback {
   double budget_ms_ = std::numeric_limits<double>::infinity();
   bool waits_ = false;
   bool is_used_up_ = false;
-  std::size_t drawn_ = 0;  // of the picture
-  std::size_t seen_ = 0;   // in this go
+  double drawn_ms_ = 0.0;         // into the go, when the last drawable was done
+  std::size_t drawn_ = 0;         // of the picture
+  std::size_t seen_ = 0;          // in this go
+  std::size_t begun_ = 0;         // of the picture, before this go
+  std::vector<double> costs_ms_;  // of each drawable, when it was drawn last
 };
 
 }  // namespace stillframe::scenegraph

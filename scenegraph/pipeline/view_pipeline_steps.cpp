@@ -9,6 +9,11 @@
 #include "scenegraph/stopwatch.h"
 
 namespace stillframe::scenegraph {
+namespace {
+
+constexpr double kMuch = 0.5;  // of the budget: points that take as much have a step of their own
+
+}  // namespace
 
 std::expected<bool, Status> ViewPipeline::step(std::uint32_t output_fbo, int width_px, int height_px,
                                                double budget_ms) {
@@ -44,6 +49,9 @@ std::expected<bool, Status> ViewPipeline::step(std::uint32_t output_fbo, int wid
   if (is_new) {
     impl.rest_ms = 0.0;  // is not drawn in the same step
     impl.drawPoints();
+    if (millisecondsSince(start) > kMuch * budget_ms) {
+      return false;
+    }
   }
   Impl::Stepped& at = *impl.stepped;
   for (bool is_first = !is_new; at.stage + 1 < stages.count(); is_first = false) {

@@ -344,7 +344,7 @@ TEST_F(SceneWidgetTest, DrawsALongFrameInSteps) {
   // Sheets, each nearer than those before, over the whole view.
   const osg::ref_ptr<osg::MatrixTransform> before_eye =
       new osg::MatrixTransform{osg::Matrixd::inverse(scenegraph::toOsg(view.eye_from_fixed))};
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 150; ++i) {
     before_eye->addChild(scenegraph::makeQuad(40, 40, -10.0F + 0.01F * static_cast<float>(i), {0, 1, 1, 1}));
   }
   widget_->scene()->root().addChild(before_eye);

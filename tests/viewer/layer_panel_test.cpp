@@ -154,6 +154,12 @@ TEST_F(LayerPanelTest, KeysDoWhatTheButtonsDo) {
   QTest::keyClick(&tree_, Qt::Key_D, Qt::ControlModifier);
   QTest::keyClick(&tree_, Qt::Key_Up, Qt::ControlModifier);
   EXPECT_THAT(ids(), ElementsAre("grid", "tf", "/points#2", "/points"));
+  QTreeWidgetItem* const layer = tree_.currentItem();
+  layer->setExpanded(true);
+  tree_.setCurrentItem(layer->child(0));
+  QTest::keyClick(&tree_, Qt::Key_Delete);
+  EXPECT_THAT(ids(), ElementsAre("grid", "tf", "/points#2", "/points")) << "from among its settings";
+  tree_.setCurrentItem(layer);
   QTest::keyClick(&tree_, Qt::Key_Delete);
   EXPECT_THAT(ids(), ElementsAre("grid", "tf", "/points"));
 }

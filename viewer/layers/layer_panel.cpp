@@ -35,14 +35,22 @@ LayerPanel::LayerPanel(QWidget* parent)
   down_ = addButton("moveLayerDown", {}, tr("Move the selected layer down (Ctrl+Down)"));
   down_->setArrowType(Qt::DownArrow);
 
-  const auto bind = [this](QToolButton* button, const QKeySequence& keys, auto action) {
-    connect(button, &QToolButton::clicked, tree_, action);
+  const auto bindKeys = [this](const QKeySequence& keys, auto action) {
     auto* shortcut = new QShortcut(keys, tree_);
     shortcut->setContext(Qt::WidgetShortcut);
     connect(shortcut, &QShortcut::activated, tree_, action);
   };
+  const auto bind = [&](QToolButton* button, const QKeySequence& keys, auto action) {
+    connect(button, &QToolButton::clicked, tree_, action);
+    bindKeys(keys, action);
+  };
   bind(duplicate_, Qt::CTRL | Qt::Key_D, [this] { tree_->duplicateCurrent(); });
-  bind(remove_, Qt::Key_Delete, [this] { tree_->removeCurrent(); });
+  connect(remove_, &QToolButton::clicked, tree_, [this] { tree_->removeCurrent(); });
+  bindKeys(Qt::Key_Delete, [this] {
+    if (tree_->currentItem() != nullptr && tree_->currentItem()->parent() == nullptr) {  // not from among its settings
+      tree_->removeCurrent();
+    }
+  });
   bind(up_, Qt::CTRL | Qt::Key_Up, [this] { tree_->moveCurrent(-1); });
   bind(down_, Qt::CTRL | Qt::Key_Down, [this] { tree_->moveCurrent(1); });
 

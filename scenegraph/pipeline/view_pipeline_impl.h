@@ -13,6 +13,12 @@
 
 namespace stillframe::scenegraph {
 
+/// A picture that is being drawn in steps.
+struct SteppedPicture {
+  std::size_t stage = 0;  // that is drawn next
+  bool is_begun = false;  // the scene's targets are cleared
+};
+
 /// What a ViewPipeline is made of; for its sources alone.
 struct ViewPipeline::Impl {
   osg::ref_ptr<osg::Group> root;
@@ -40,11 +46,7 @@ struct ViewPipeline::Impl {
   std::optional<PointProgress> point_progress;
   std::unique_ptr<IdPass> id_pass;  // none before something is picked
   bool is_chain_new = false;        // setPostChain() needs no context, the next draw() has one
-  struct Stepped {
-    std::size_t stage = 0;  // that is drawn next
-    bool is_begun = false;  // the scene's targets are cleared
-  };
-  std::optional<Stepped> stepped;  // the picture that is being drawn in steps
+  std::optional<SteppedPicture> stepped;
 
   [[nodiscard]] unsigned contextId() const { return window->getState()->getContextID(); }
   void makeViewer();

@@ -34,7 +34,7 @@ std::expected<bool, Status> ViewPipeline::step(std::uint32_t output_fbo, int wid
     if (const auto drawn = impl.draw(output_fbo, width_px, height_px, true); !drawn) {
       return std::unexpected(drawn.error());
     }
-    impl.stepped = Impl::Stepped{.stage = stages.count() - 1, .is_begun = true};
+    impl.stepped = SteppedPicture{.stage = stages.count() - 1, .is_begun = true};
     return true;
   }
   const bool is_new = *remade || !impl.stepped;
@@ -53,7 +53,7 @@ std::expected<bool, Status> ViewPipeline::step(std::uint32_t output_fbo, int wid
       return false;
     }
   }
-  Impl::Stepped& at = *impl.stepped;
+  SteppedPicture& at = *impl.stepped;
   for (bool is_first = !is_new; at.stage + 1 < stages.count(); is_first = false) {
     const double left_ms = budget_ms - millisecondsSince(start);
     if (!is_first && left_ms <= 0.0) {

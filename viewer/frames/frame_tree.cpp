@@ -53,12 +53,16 @@ QString durationText(double seconds) {
   return QString::number(seconds / 3600.0, 'g', 4) + QStringLiteral(" h");
 }
 
-FrameTree::FrameTree(QWidget* parent) : QWidget(parent) {
+FrameTree::FrameTree(QWidget* parent)
+    : QWidget(parent),
+      refusal_(new QLabel(this)),
+      pose_(new FramePose(this)),
+      more_(new QLabel(this)),
+      timer_(new QTimer(this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   layout->addWidget(makeFilterRow());
-  refusal_ = new QLabel(this);
   refusal_->setObjectName(QStringLiteral("filterRefusal"));
   refusal_->setWordWrap(true);
   refusal_->setContentsMargins(5, 0, 5, 2);
@@ -70,14 +74,11 @@ FrameTree::FrameTree(QWidget* parent) : QWidget(parent) {
   problems_ = new ProblemList(splitter);
   splitter->setStretchFactor(0, 4);
   splitter->setStretchFactor(1, 1);
-  more_ = new QLabel(this);
   more_->setVisible(false);
   layout->addWidget(more_);
-  pose_ = new FramePose(this);
   layout->addWidget(pose_);
 
   connect(problems_, &ProblemList::timeRequested, this, &FrameTree::timeRequested);
-  timer_ = new QTimer(this);
   timer_->setSingleShot(true);
   timer_->setInterval(kRefreshMs);
   connect(timer_, &QTimer::timeout, this, &FrameTree::refreshNow);

@@ -41,12 +41,12 @@ class WholeLabel : public QLabel {
 
 }  // namespace
 
-ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent), splitter_(new QSplitter(Qt::Horizontal, this)) {
+ViewPanel::ViewPanel(QWidget* parent)
+    : QWidget(parent), mark_(new QWidget(this)), splitter_(new QSplitter(Qt::Horizontal, this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
 
-  mark_ = new QWidget(this);
   mark_->setObjectName(QStringLiteral("mark"));
   mark_->setFixedHeight(kMarkHeight);
   mark_->setAutoFillBackground(true);

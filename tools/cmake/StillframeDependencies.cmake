@@ -6,7 +6,7 @@ find_package(nlohmann_json REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(PROTOBUF REQUIRED IMPORTED_TARGET protobuf)
 pkg_check_modules(LZ4 REQUIRED IMPORTED_TARGET liblz4)
-find_package(ZLIB REQUIRED)
+pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 find_package(EXPAT REQUIRED)
 find_package(TBB REQUIRED)
 # Draco's own package names its include folder without SYSTEM.

@@ -1,7 +1,7 @@
 #include "tools/ingest/compression.h"
 
+#include <libdeflate.h>
 #include <lz4frame.h>
-#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -227,8 +227,7 @@ std::expected<std::vector<std::byte>, std::string> compress(Compression compress
 }
 
 std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t crc) noexcept {
-  return static_cast<std::uint32_t>(
-      ::crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<z_size_t>(bytes.size())));
+  return bytes.empty() ? crc : ::libdeflate_crc32(crc, bytes.data(), bytes.size());
 }
 
 }  // namespace stillframe::ingest

@@ -1,14 +1,13 @@
 #include "scenegraph/executor.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
 #include <thread>
 #include <vector>
+
+#include "scenegraph/thread_priority.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -81,8 +80,7 @@ class ThreadPoolExecutor : public Executor {
   }
 
   void workInSpareTime() {
-    // Of this thread alone, on Linux: the picture and what is wanted now go before what may be wanted.
-    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kLowestPriority);
+    standBack(StandBack::Spare);
     std::unique_lock lock(mutex_);
     while (true) {
       spare_wake_.wait(lock, [this] { return is_ending_ || (!spare_jobs_.empty() && unfinished_ == 0); });
@@ -98,7 +96,6 @@ class ThreadPoolExecutor : public Executor {
     }
   }
 
-  static constexpr int kLowestPriority = 19;
   std::mutex mutex_;  // guards jobs_, spare_jobs_, unfinished_, is_ending_
   std::condition_variable wake_;
   std::condition_variable spare_wake_;

@@ -16,7 +16,7 @@ using scenegraph::StatusLevel;
 template <typename Array>
 osg::ref_ptr<Array> makeArray(std::size_t size) {
   osg::ref_ptr<Array> array = new Array(osg::Array::BIND_PER_VERTEX);
-  array->resize(size);
+  array->asVector().resize(size);  // OSG's own copies a zero from the stack to each, which stalls a dozen cycles
   array->setVertexBufferObject(new osg::VertexBufferObject);
   return array;
 }

@@ -7,17 +7,32 @@
 #include <tuple>
 
 #include "scenegraph/pipeline/point_boxes.h"
+#include "scenegraph/raster/background_tasks.h"
 #include "scenegraph/raster/sample_order.h"
 #include "scenegraph/store/large_pages.h"
 
 namespace stillframe::nodes {
 namespace {
 
+/// The system clears a page when it is first written to, which costs more than what then is: by all cores at once.
+void touch(std::byte* block, std::size_t bytes) {
+  constexpr std::size_t kPiece = std::size_t{2} << 20;
+  constexpr std::size_t kPage = 4096;
+  scenegraph::runInBackground((bytes + kPiece - 1) / kPiece, [=](std::size_t piece) {
+    const std::size_t end = std::min(bytes, (piece + 1) * kPiece);
+    for (std::size_t at = piece * kPiece; at < end; at += kPage) {
+      block[at] = std::byte{0};
+    }
+  });
+}
+
 template <typename Array>
 void makeRoom(Array& array, std::size_t size) {
   array.reserve(size);
-  scenegraph::useLargePages(array.asVector().data(), size * sizeof(array.asVector().front()));
-  array.resize(size);
+  const std::size_t bytes = size * sizeof(array.asVector().front());
+  scenegraph::useLargePages(array.asVector().data(), bytes);
+  touch(reinterpret_cast<std::byte*>(array.asVector().data()), bytes);
+  array.asVector().resize(size);  // OSG's own copies a zero from the stack to each, which stalls a dozen cycles
 }
 
 /// An array with a buffer of its own: OSG would put all arrays of a geometry into one, and upload all when one changes.
@@ -160,23 +175,29 @@ ValueRange CloudPoints::axisPercentiles(int axis, double low, double high) const
   return found->second;
 }
 
-ValueRange CloudPoints::sampledAxisPercentiles(int axis, double low, double high) const {
+std::array<ValueRange, 3> CloudPoints::sampledPercentiles(double low, double high) const {
   using scenegraph::kPassesOfSample;
-  constexpr std::size_t kEnough = 65536;
+  constexpr std::size_t kEnough = 16384;
   const std::size_t groups = (converted_.points + kPassesOfSample - 1) / kPassesOfSample;
   const std::size_t passes = std::min<std::size_t>(groups == 0 ? 0 : kEnough / groups + 1, kPassesOfSample);
-  std::vector<float> values;
-  values.reserve(groups * passes);
-  for (std::size_t group = 0; group < groups; ++group) {
+  const std::size_t stride = groups / kEnough + 1;  // of one pass there may be too many as well
+  std::array<std::vector<float>, 3> values;
+  for (std::size_t group = 0; group < groups; group += stride) {
     for (std::size_t pass = 0; pass < passes; ++pass) {
       const std::size_t point = group * kPassesOfSample + scenegraph::placeInGroup(static_cast<std::uint32_t>(group),
                                                                                    static_cast<std::uint32_t>(pass));
       if (point < converted_.points) {
-        values.push_back((*positions_)[point][axis]);
+        for (std::size_t axis = 0; axis < values.size(); ++axis) {
+          values[axis].push_back((*positions_)[point][static_cast<unsigned>(axis)]);
+        }
       }
     }
   }
-  return percentileRange(values, converted_.origin[axis], low, high);
+  std::array<ValueRange, 3> ranges;
+  for (std::size_t axis = 0; axis < values.size(); ++axis) {
+    ranges[axis] = percentileRange(values[axis], converted_.origin[static_cast<int>(axis)], low, high);
+  }
+  return ranges;
 }
 
 void CloudPoints::notePrepared(const std::string& work) const {

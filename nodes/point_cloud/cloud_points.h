@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <expected>
 #include <functional>
@@ -75,8 +76,8 @@ class CloudPoints {
   [[nodiscard]] ValueRange channelPercentiles(std::string_view name, double low, double high) const;
   /// Percentiles of x (0), y (1) or z (2) in the cloud's own coordinates.
   [[nodiscard]] ValueRange axisPercentiles(int axis, double low, double high) const;
-  /// The same of a fair sample of the points, in a millisecond: exact where they are few.
-  [[nodiscard]] ValueRange sampledAxisPercentiles(int axis, double low, double high) const;
+  /// The same of all three axes, of a fair sample of the points, in some milliseconds: exact where they are few.
+  [[nodiscard]] std::array<ValueRange, 3> sampledPercentiles(double low, double high) const;
 
   /// Remembers that some work upon this is done, by a name of its own.
   void notePrepared(const std::string& work) const;

@@ -82,11 +82,11 @@ osg::BoundingBoxd PointCloudLayer::box() const {
 osg::BoundingBoxd PointCloudLayer::bulk() const {
   // A quarter of the spread beyond the 5th and 95th percentile at most: a cloud without strays keeps its whole box.
   osg::BoundingBoxd bulk = box();
-  for (int axis = 0; axis < 3; ++axis) {
-    const ValueRange middle = product()->sampledAxisPercentiles(axis, 5.0, 95.0);
-    const double margin = (middle.high - middle.low) / 4.0;
-    bulk._min[axis] = std::max(bulk._min[axis], middle.low - margin);
-    bulk._max[axis] = std::min(bulk._max[axis], middle.high + margin);
+  const auto middle = product()->sampledPercentiles(5.0, 95.0);
+  for (unsigned axis = 0; axis < middle.size(); ++axis) {
+    const double margin = (middle[axis].high - middle[axis].low) / 4.0;
+    bulk._min[axis] = std::max(bulk._min[axis], middle[axis].low - margin);
+    bulk._max[axis] = std::min(bulk._max[axis], middle[axis].high + margin);
   }
   return bulk;
 }

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "nodes/points/point_colors.h"
+#include "nodes/points/point_pieces.h"
 #include "nodes/points/read_value.h"
 
 namespace stillframe::nodes {
@@ -24,51 +25,69 @@ float toArray(double value) noexcept {
   return std::isnan(value) ? kMissingValue : static_cast<float>(std::clamp(value, -kReach, kReach));
 }
 
-template <typename T, bool kSwapped>
-ChannelValues readChannel(const std::byte* data, const ConvertedCloud& converted, std::size_t field_offset,
-                          std::span<float> values) {
+/// What the values of some points come to.
+template <typename T>
+struct Reach {
   // Narrow integers and floats are exact in float, so their limits can be found there.
   using Limit =
       std::conditional_t<std::is_same_v<T, double> || (std::is_integral_v<T> && sizeof(T) == 4), double, float>;
   Limit low = std::numeric_limits<Limit>::infinity();
-  Limit high = -low;
+  Limit high = -std::numeric_limits<Limit>::infinity();
   std::size_t finite = 0;
-  float* out = values.data();
-  for (const PointRun& run : converted.runs) {
-    const std::byte* at = data + run.offset + field_offset;
-    for (std::size_t i = 0; i < run.count; ++i, at += converted.point_step) {
-      const auto value = static_cast<Limit>(readValue<T, kSwapped>(at));
-      bool is_finite = true;
-      if constexpr (std::is_floating_point_v<T>) {
-        is_finite = std::abs(value) <= std::numeric_limits<Limit>::max();
-        constexpr Limit kReach = kValueReach;
-        const auto clamped = static_cast<float>(value < -kReach ? -kReach : value > kReach ? kReach : value);
-        *out++ = std::isnan(value) ? kMissingValue : clamped;
-      } else {
-        *out++ = static_cast<float>(value);
-      }
-      // Without a branch: what is not finite is no limit.
-      low = is_finite && value < low ? value : low;
-      high = is_finite && value > high ? value : high;
-      finite += is_finite ? 1 : 0;
+};
+
+template <typename T, bool kSwapped>
+Reach<T> readValues(const std::byte* at, std::size_t count, std::size_t step, float* out, Reach<T> reach) {
+  using Limit = typename Reach<T>::Limit;
+  for (std::size_t i = 0; i < count; ++i, at += step) {
+    const auto value = static_cast<Limit>(readValue<T, kSwapped>(at));
+    bool is_finite = true;
+    if constexpr (std::is_floating_point_v<T>) {
+      is_finite = std::abs(value) <= std::numeric_limits<Limit>::max();
+      constexpr Limit kReach = kValueReach;
+      const auto clamped = static_cast<float>(value < -kReach ? -kReach : value > kReach ? kReach : value);
+      *out++ = std::isnan(value) ? kMissingValue : clamped;
+    } else {
+      *out++ = static_cast<float>(value);
     }
+    // Without a branch: what is not finite is no limit.
+    reach.low = is_finite && value < reach.low ? value : reach.low;
+    reach.high = is_finite && value > reach.high ? value : reach.high;
+    reach.finite += is_finite ? 1 : 0;
   }
-  if (finite == 0) {
+  return reach;
+}
+
+template <typename T, bool kSwapped>
+ChannelValues readChannel(const std::byte* data, const ConvertedCloud& converted, std::size_t field_offset,
+                          std::span<float> values) {
+  const std::vector<PointPiece> pieces = piecesOf(converted);
+  std::vector<Reach<T>> reaches(pieces.size());
+  forPieces(converted, pieces, [&](std::size_t piece, std::size_t offset, std::size_t count, std::size_t first) {
+    reaches[piece] = readValues<T, kSwapped>(data + offset + field_offset, count, converted.point_step,
+                                             values.data() + first, reaches[piece]);
+  });
+  Reach<T> all;
+  for (const Reach<T>& reach : reaches) {
+    all = {std::min(all.low, reach.low), std::max(all.high, reach.high), all.finite + reach.finite};
+  }
+  if (all.finite == 0) {
     return {};
   }
-  return {.offset = 0.0, .low = static_cast<double>(low), .high = static_cast<double>(high), .finite = finite};
+  return {
+      .offset = 0.0, .low = static_cast<double>(all.low), .high = static_cast<double>(all.high), .finite = all.finite};
 }
 
 template <typename T, bool kSwapped>
 void rewriteRelative(const std::byte* data, const ConvertedCloud& converted, std::size_t field_offset, double offset,
                      std::span<float> values) {
-  float* out = values.data();
-  for (const PointRun& run : converted.runs) {
-    const std::byte* at = data + run.offset + field_offset;
-    for (std::size_t i = 0; i < run.count; ++i, at += converted.point_step) {
-      *out++ = toArray(static_cast<double>(readValue<T, kSwapped>(at)) - offset);
+  const auto rewrite = [&](std::size_t /*piece*/, std::size_t place, std::size_t count, std::size_t first) {
+    const std::byte* at = data + place + field_offset;
+    for (std::size_t i = 0; i < count; ++i, at += converted.point_step) {
+      values[first + i] = toArray(static_cast<double>(readValue<T, kSwapped>(at)) - offset);
     }
-  }
+  };
+  forPieces(converted, piecesOf(converted), rewrite);
 }
 
 std::string lowerCase(std::string_view text) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nodes/points/copy_points.h"
+#include "nodes/points/point_pieces.h"
 #include "nodes/points/read_value.h"
 #include "scenegraph/raster/background_tasks.h"
 
@@ -220,15 +221,17 @@ PartResult convertParts(const CloudLayout& layout, std::span<const std::byte> da
 
 /// Second pass: the kept points again, in double, relative to the origin.
 void writeRelative(const MixedReader& read, const ConvertedCloud& cloud, const std::byte* data, float* out) {
-  for (const PointRun& run : cloud.runs) {
-    const std::byte* at = data + run.offset;
-    for (std::size_t i = 0; i < run.count; ++i, at += cloud.point_step) {
+  const auto write = [&](std::size_t /*piece*/, std::size_t offset, std::size_t count, std::size_t first) {
+    const std::byte* at = data + offset;
+    float* to = out + 3 * first;
+    for (std::size_t i = 0; i < count; ++i, at += cloud.point_step) {
       const glm::dvec3 p = read(at) - cloud.origin;
-      *out++ = static_cast<float>(p.x);
-      *out++ = static_cast<float>(p.y);
-      *out++ = static_cast<float>(p.z);
+      *to++ = static_cast<float>(p.x);
+      *to++ = static_cast<float>(p.y);
+      *to++ = static_cast<float>(p.z);
     }
-  }
+  };
+  forPieces(cloud, piecesOf(cloud), write);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "nodes/points/point_pieces.h"
 #include "nodes/points/read_value.h"
 
 namespace stillframe::nodes {
@@ -61,14 +62,15 @@ std::optional<ColorSource> separateColors(const PointCloud& cloud, std::array<st
 template <typename Paint>
 void paintPoints(const ConvertedCloud& converted, const std::byte* data, std::span<std::uint8_t> rgba,
                  const Paint& paint) {
-  std::uint8_t* out = rgba.data();
-  for (const PointRun& run : converted.runs) {
-    const std::byte* at = data + run.offset;
-    for (std::size_t i = 0; i < run.count; ++i, at += converted.point_step, out += 4) {
+  const auto paintSome = [&](std::size_t /*piece*/, std::size_t offset, std::size_t count, std::size_t first) {
+    const std::byte* at = data + offset;
+    std::uint8_t* out = rgba.data() + 4 * first;
+    for (std::size_t i = 0; i < count; ++i, at += converted.point_step, out += 4) {
       paint(at, out);
       out[3] = 255;
     }
-  }
+  };
+  forPieces(converted, piecesOf(converted), paintSome);
 }
 
 void paintWords(const PointCloud& cloud, const ConvertedCloud& converted, std::uint32_t offset,

@@ -88,7 +88,7 @@ void InstancedMesh::resize(std::size_t count) {
   if (count == before) {
     return;
   }
-  texels_->resize(kTexels * count);
+  texels_->asVector().resize(kTexels * count);  // OSG's own copies a zero from the stack to each, and stalls
   is_resized_ = true;
   boxes_.resize((count + kBlock - 1) / kBlock);
   is_block_touched_.resize(boxes_.size(), 0);

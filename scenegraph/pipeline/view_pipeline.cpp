@@ -160,8 +160,10 @@ void ViewPipeline::Impl::drawPoints() {
     if (stages->subFrames() > 1) {
       limits.budget_ms = std::numeric_limits<double>::infinity();
     } else if (isPaced()) {
-      constexpr double kLeast = 0.25;  // of the budget: the picture of the points must come to an end
-      limits.budget_ms = std::max(limits.budget_ms - rest_ms, kLeast * limits.budget_ms);
+      constexpr double kLeast = 0.25;    // of the budget: the picture of the points must come to an end
+      constexpr double kUnknown = 0.75;  // of it, in a first frame, which makes shaders and textures
+      const double rest = rest_ms.value_or(kUnknown * limits.budget_ms);
+      limits.budget_ms = std::max(limits.budget_ms - rest, kLeast * limits.budget_ms);
     }
     point_progress = point_stage->draw(std::move(points), width_px, height_px, limits);
   }
@@ -174,7 +176,8 @@ void ViewPipeline::Impl::drawFrame() {
   viewer->frame();
   if (point_progress && isPaced()) {
     gl::finish();
-    rest_ms += (millisecondsSince(start) - rest_ms) / 2.0;
+    const double took_ms = millisecondsSince(start);
+    rest_ms = rest_ms ? (*rest_ms + took_ms) / 2.0 : took_ms;
   }
 }
 

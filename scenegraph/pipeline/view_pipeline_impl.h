@@ -38,7 +38,7 @@ struct ViewPipeline::Impl {
   BlendLimits blend;
   PointWay point_way = PointWay::Auto;
   PointLimits point_limits;
-  double rest_ms = 0.0;  // of a frame beside its points, measured where there is a budget for both
+  std::optional<double> rest_ms;  // of a frame beside its points, once measured where there is a budget for both
   bool is_software = false;
   osg::ref_ptr<osg::Group> content;         // the root, and the picture of the points
   std::unique_ptr<PointStage> point_stage;  // none before there are points for it

@@ -170,5 +170,48 @@ TEST(Channels, ReplaceWhatIsNotFinite) {
   EXPECT_EQ(channel.high, 2.0);
 }
 
+TEST(Channels, OfLargeCloudsWithHolesGoPointByPoint) {
+  struct Point {
+    double x, y, z;  // beyond kNearby: written again, relative to the origin
+    std::uint32_t rgb;
+    float intensity;
+  };
+  std::vector<Point> points(400'003);  // some pieces and a rest
+  std::vector<Point> kept;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const bool is_hole = i % 4999 == 3 || (i > 131'000 && i < 131'200) || (i > 270'000 && i < 310'000 && i % 2 == 0);
+    const double x = is_hole ? std::numeric_limits<double>::quiet_NaN() : 4e5 + 1e-3 * i;
+    points[i] = {x, -5e6 + 2e-3 * i, 100.0, i * 37U, 1e-2F * static_cast<float>(i)};
+    if (!is_hole) {
+      kept.push_back(points[i]);
+    }
+  }
+  const PointCloud cloud = makeCloud<Point>({{"x", 0, FieldType::Float64},
+                                             {"y", 8, FieldType::Float64},
+                                             {"z", 16, FieldType::Float64},
+                                             {"rgb", 24, FieldType::Float32},  // as PCL packs it
+                                             {"intensity", 28, FieldType::Float32}},
+                                            points);
+  const auto converted = convert(cloud);
+  ASSERT_TRUE(converted);
+  ASSERT_EQ(converted->cloud.points, kept.size());
+  std::vector<float> values(kept.size());
+  const auto channel = nodes::convertChannel(cloud, converted->cloud, nodes::listChannels(cloud)[0], values);
+  std::vector<std::uint8_t> rgba(4 * kept.size());
+  nodes::convertColors(cloud, converted->cloud, *nodes::findColors(cloud), rgba);
+  EXPECT_EQ(channel.finite, kept.size());
+  EXPECT_EQ(channel.low, kept.front().intensity);
+  EXPECT_EQ(channel.high, kept.back().intensity);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    ASSERT_EQ(values[i], kept[i].intensity) << i;
+    ASSERT_EQ(converted->positions[3 * i], static_cast<float>(kept[i].x - converted->cloud.origin.x)) << i;
+    ASSERT_EQ(converted->positions[3 * i + 1], static_cast<float>(kept[i].y - converted->cloud.origin.y)) << i;
+    const std::uint32_t word =
+        std::uint32_t{rgba[4 * i]} << 16U | std::uint32_t{rgba[4 * i + 1]} << 8U | std::uint32_t{rgba[4 * i + 2]};
+    ASSERT_EQ(word, kept[i].rgb & 0xFFFFFFU) << i;
+    ASSERT_EQ(rgba[4 * i + 3], 255) << i;
+  }
+}
+
 }  // namespace
 }  // namespace stillframe::test

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scenegraph/stopwatch.h"
+#include "scenegraph/thread_priority.h"
 #include "tools/cli/bench_results.h"
 #include "tools/cli/bench_view.h"
 #include "tools/ingest/mcap_file.h"
@@ -116,6 +117,7 @@ Result<Opening> openOnce(const RecordingOptions& options, const FirstPicture& fi
   BenchView view((*recording)->dataset(), std::move(*renderer));
   std::atomic<bool> is_loaded = false;
   std::jthread loader([&, wake = view.requester()] {
+    scenegraph::standBack(scenegraph::StandBack::Loading);
     (*recording)->load([&](double) {
       wake();
       return true;

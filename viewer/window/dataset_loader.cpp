@@ -8,6 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "scenegraph/thread_priority.h"
+
 namespace stillframe::viewer {
 
 using scenegraph::Status;
@@ -79,6 +81,7 @@ void DatasetLoader::run(Job& job, const RecordingOpener& opener, const std::vect
         job.dataset = recording->dataset;
       }
       job.notify();
+      scenegraph::standBack(scenegraph::StandBack::Loading);  // behind the first picture, of what has come so far
       recording->load([&job](double fraction) {
         job.fraction = fraction;
         job.notify();

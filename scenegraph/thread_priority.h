@@ -1,0 +1,18 @@
+#pragma once
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace stillframe::scenegraph {
+
+/// How far a thread stands back behind those that draw and that fetch what is wanted now, where all want a core: in
+/// units of nice (POSIX), of which ten leave a ninth of a core.
+enum class StandBack { Loading = 10, Spare = 19 };
+
+/// Lets the calling thread stand back until it ends; on Linux it alone, not its process. It has no way back without
+/// privileges, so it is for threads that do nothing else.
+inline void standBack(StandBack how) noexcept {
+  static_cast<void>(::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), static_cast<int>(how)));
+}
+
+}  // namespace stillframe::scenegraph

@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "generated/stillframe_cli/commit.h"
 #include "scenegraph/export/replace_file.h"
 #include "scenegraph/pick/scene_pick.h"
 #include "scenegraph/pipeline/offscreen_renderer.h"

@@ -177,7 +177,7 @@ void ViewPipeline::Impl::drawFrame() {
   if (point_progress && isPaced()) {
     gl::finish();
     const double took_ms = millisecondsSince(start);
-    rest_ms = rest_ms ? (*rest_ms + took_ms) / 2.0 : took_ms;
+    rest_ms = rest_ms && took_ms < *rest_ms ? (*rest_ms + took_ms) / 2.0 : took_ms;  // the next is not to be late too
   }
 }
 

@@ -337,42 +337,5 @@ TEST(SceneWidgetContext, CoreProfileIsRefusedWithAMessage) {
   EXPECT_TRUE(widget.problem().contains(QStringLiteral("compatibility"))) << widget.problem().toStdString();
 }
 
-TEST_F(SceneWidgetTest, DrawsALongFrameInSteps) {
-  show();
-  const QImage at_first = widget_->grabFramebuffer();
-  const scenegraph::CameraView view = widget_->shownView();
-  // Sheets, each nearer than those before, over the whole view.
-  const osg::ref_ptr<osg::MatrixTransform> before_eye =
-      new osg::MatrixTransform{osg::Matrixd::inverse(scenegraph::toOsg(view.eye_from_fixed))};
-  for (int i = 0; i < 150; ++i) {
-    before_eye->addChild(scenegraph::makeQuad(40, 40, -10.0F + 0.01F * static_cast<float>(i), {0, 1, 1, 1}));
-  }
-  widget_->scene()->root().addChild(before_eye);
-  auto frames = widget_->framesDrawn();
-  widget_->update();
-  QCoreApplication::sendPostedEvents(widget_->window(), QEvent::UpdateRequest);
-  EXPECT_EQ(widget_->framesDrawn(), frames) << "the first step was not all of it";
-  widget_->setTime(TimePoint{2_s});
-  EXPECT_FALSE(widget_->applyTick()) << "the scene stands still meanwhile";
-  EXPECT_NE(widget_->scene()->frames().time(), TimePoint{2_s});
-  EXPECT_EQ(widget_->QOpenGLWidget::grabFramebuffer(), at_first) << "no part of a picture is shown";
-  ASSERT_TRUE(waitFor([&] { return widget_->framesDrawn() > frames; }));
-  EXPECT_EQ(widget_->QOpenGLWidget::grabFramebuffer().pixelColor(200, 150), QColor(0, 255, 255));
-  ASSERT_TRUE(waitFor([&] { return widget_->scene()->frames().time() == TimePoint{2_s}; }));
-
-  // What changes while a frame is drawn is in the next one, and a picture that somebody waits for is whole.
-  widget_->scene()->root().removeChild(before_eye);
-  EXPECT_NE(widget_->grabFramebuffer().pixelColor(200, 150), QColor(0, 255, 255));
-  widget_->scene()->root().addChild(before_eye);
-  EXPECT_EQ(widget_->grabFramebuffer().pixelColor(200, 150), QColor(0, 255, 255));
-  widget_->update();
-  QCoreApplication::sendPostedEvents(widget_->window(), QEvent::UpdateRequest);
-  frames = widget_->framesDrawn();
-  widget_->setBackground({1, 0, 0, 1});
-  ASSERT_TRUE(waitFor([&] { return widget_->framesDrawn() >= frames + 2; })) << "one more was asked for";
-  widget_->scene()->root().removeChild(before_eye);
-  settle();
-}
-
 }  // namespace
 }  // namespace stillframe::viewer

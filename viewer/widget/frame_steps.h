@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QSize>
 #include <cstdint>
 
 namespace stillframe::viewer {
@@ -14,12 +15,15 @@ struct FrameSteps {
   };
   static constexpr double kBudgetMs = 20.0;  ///< of a step; a drawable that has been begun comes on top
 
+  [[nodiscard]] bool isUpToDate() const noexcept { return at == At::Rest && !is_wanted && !has_put_tick; }
+
   At at = At::Rest;
   bool is_wanted = true;      ///< something has changed since the last frame was begun
   bool is_first = true;       ///< of this context: shaders are made, and take long
-  bool is_blank = true;       ///< nothing is shown that could stay
+  bool is_blank = true;       ///< the framebuffer is new: nothing is in it
   bool is_whole = false;      ///< somebody waits for the next frame
   bool has_put_tick = false;  ///< a tick was put off: the scene stands still meanwhile
+  QSize shown_px;             ///< of the whole frame that is shown
 };
 
 }  // namespace stillframe::viewer

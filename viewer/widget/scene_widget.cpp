@@ -34,7 +34,8 @@ SceneWidget::SceneWidget(QWidget* parent)
       message_(makeOverlay(this)),
       progress_label_(makeOverlay(this)),
       help_(new HelpOverlay(this)),
-      picker_(new ViewPicker(*this)) {
+      picker_(new ViewPicker(*this)),
+      turn_([this] { return stepFrame(); }, [this] { return underMouse() || hasFocus(); }) {
   clock_.start();
   connect(this, &SceneWidget::cameraChanged, this, [this] { restored_.reset(); });
   setFormat(glFormat());
@@ -181,6 +182,7 @@ void SceneWidget::releaseGl() {
     return;
   }
   makeCurrent();
+  kept_.release();
   if (pipeline_ != nullptr) {
     pipeline_->releaseGl();
   }
@@ -193,7 +195,8 @@ void SceneWidget::releaseGl() {
 }
 
 void SceneWidget::dropPipeline() {
-  steps_ = {.is_blank = steps_.is_blank};
+  const bool is_blank = std::exchange(steps_, {}).is_blank;
+  steps_.is_blank = is_blank;
   picture_.reset();
   draw_times_.reset();
   if (pipeline_ == nullptr) {
@@ -202,6 +205,7 @@ void SceneWidget::dropPipeline() {
   // Without a usable context everything was released when the last one went.
   if (is_context_usable_) {
     makeCurrent();
+    kept_.release();
     pipeline_.reset();
     doneCurrent();
   } else {

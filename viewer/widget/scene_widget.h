@@ -16,11 +16,13 @@
 #include "scenegraph/pick/scene_pick.h"
 #include "scenegraph/pipeline/draw_times.h"
 #include "scenegraph/pipeline/gl_debug.h"
+#include "scenegraph/pipeline/kept_picture.h"
 #include "scenegraph/pipeline/picture.h"
 #include "scenegraph/scene.h"
 #include "viewer/widget/camera_gestures.h"
 #include "viewer/widget/camera_keys.h"
 #include "viewer/widget/frame_steps.h"
+#include "viewer/widget/frame_turn.h"
 #include "viewer/widget/selection.h"
 #include "viewer/widget/update_gate.h"
 
@@ -53,8 +55,7 @@ class SceneWidget : public QOpenGLWidget {
   void setFixedFrame(const std::optional<std::string>& frame);
   /// The scene may have changed: poses frames and updates layers soon. Any thread.
   void requestTick() { gate_.request(); }
-  /// Does now what is requested. Returns whether a repaint follows.
-  bool applyTick();
+  bool applyTick();  ///< does now what is requested, and returns whether a repaint follows
   [[nodiscard]] const scenegraph::ViewCamera& camera() const noexcept { return camera_; }
   /// What the next frame is drawn from: at the tick that was applied last, at this moment of a smooth move.
   [[nodiscard]] scenegraph::CameraView shownView() const { return camera_.view(now()); }
@@ -90,8 +91,7 @@ class SceneWidget : public QOpenGLWidget {
   void setEffects(const scenegraph::ViewEffects& effects);
   [[nodiscard]] const scenegraph::ViewEffects& effects() const noexcept { return effects_; }
   void setPointWay(scenegraph::PointWay way, std::optional<double> budget_ms = {});  ///< none: what suits the OpenGL
-  /// A picture of what is shown, of any size, whole; blocks until it is drawn. "NotDrawn" before the first frame, and
-  /// what scenegraph::checkPicture() refuses.
+  /// A picture of what is shown, whole; blocks. "NotDrawn" before the first frame, and what checkPicture() refuses.
   [[nodiscard]] std::expected<scenegraph::Picture, scenegraph::Status> takePicture(const PictureRequest& request);
   /// The same in steps, the view standing still meanwhile: drawing is one, reading back takes some of milliseconds.
   [[nodiscard]] std::expected<void, scenegraph::Status> beginPicture(const PictureRequest& request);
@@ -105,12 +105,12 @@ class SceneWidget : public QOpenGLWidget {
   /// changes meanwhile. The view stands still as long. Does nothing before the first frame.
   void measureDrawTimes();
   [[nodiscard]] std::uint64_t framesDrawn() const noexcept { return frames_drawn_; }
+  [[nodiscard]] bool isUpToDate() const noexcept { return steps_.isUpToDate(); }  ///< no frame is on its way
   void update();  ///< a frame soon, drawn in steps from the event loop
   /// What there is to see at this moment, drawn whole; blocks.
   [[nodiscard]] QImage grabFramebuffer();
   [[nodiscard]] std::size_t glMessages() const noexcept { return gl_messages_ + debug_log_.count(); }
-  /// What is shown instead of the scene, "" when the scene is shown.
-  [[nodiscard]] QString problem() const;
+  [[nodiscard]] QString problem() const;  ///< what is shown instead of the scene, "" when the scene is
 
  public Q_SLOTS:
   /// The default direction, all data in sight; again when a topic's first data comes, unless moved by hand before.
@@ -153,17 +153,14 @@ class SceneWidget : public QOpenGLWidget {
   void leaveEvent(QEvent* event) override;
 
  private:
-  void releaseGl(), dropPipeline();
+  void releaseGl(), dropPipeline(), takeBack(), stepDrawTimes();
   [[nodiscard]] bool isLent() const noexcept { return picture_ != nullptr || draw_times_ != nullptr; }
-  void takeBack(), stepDrawTimes();
-  void beginFrame(), continueFrame(), stepFrame(), endFrame();
+  void beginFrame(), continueFrame(), endFrame(), askForFrame(), fillBlank(), keepPicture();
   void frameIfWanted(), onCameraMoved(), walk();
-  bool followTick(), obey(CameraCommand command), steer(CameraCommand command);
+  bool stepFrame(), followTick(), obey(CameraCommand command), steer(CameraCommand command);
   [[nodiscard]] scenegraph::Follow::Pose displayPose() const;
   [[nodiscard]] double now() const { return static_cast<double>(clock_.nsecsElapsed()) * 1e-9; }
-  void showProblem(const QString& text);
-  [[nodiscard]] QString problemText(const scenegraph::Status& status) const;
-  void showProgress(), sayProgress(const QString& text);
+  void showProgress(), sayProgress(const QString& text), showProblem(const QString& text);
   [[nodiscard]] double aspect() const;
   UpdateGate gate_;
   scenegraph::GlDebugLog debug_log_;
@@ -173,6 +170,7 @@ class SceneWidget : public QOpenGLWidget {
   std::unique_ptr<PictureJob> picture_;                // that is being taken
   std::unique_ptr<scenegraph::DrawTimes> draw_times_;  // that are being measured
   FrameSteps steps_;
+  scenegraph::gl::KeptPicture kept_;  // from before a resize, until the first whole one after it
   scenegraph::ViewCamera camera_;
   std::string camera_frame_;  // the fixed frame that camera_ counts in
   std::vector<scenegraph::SavedView> saved_views_;
@@ -180,14 +178,14 @@ class SceneWidget : public QOpenGLWidget {
   CameraGestures gestures_;
   CameraKeys keys_;
   QElapsedTimer clock_;
-  double walked_s_ = 0.0;  // moment of the last step
-  bool has_smooth_moves_ = true, glides_home_ = false;
   scenegraph::Color background_{.r = 0.12F, .g = 0.13F, .b = 0.15F, .a = 1.0F};
   scenegraph::ViewEffects effects_;
   scenegraph::PointWay point_way_ = scenegraph::PointWay::Auto;
   std::optional<double> point_budget_ms_;
+  double walked_s_ = 0.0;  // moment of the last step
   tf::TimePoint time_;
   bool wants_framing_ = true, has_framed_data_ = false, is_camera_touched_ = false;
+  bool has_smooth_moves_ = true, glides_home_ = false;
   bool is_software_ = false, is_context_usable_ = false, is_resizing_ = false;  // software: the OpenGL that draws
   std::optional<scenegraph::ViewpointState> restored_;                          // what restoreViewpoint() holds on to
   std::uint64_t buffer_texels_ = scenegraph::kUsualBufferTexels, frames_drawn_ = 0;
@@ -195,6 +193,7 @@ class SceneWidget : public QOpenGLWidget {
   QLabel *message_ = nullptr, *progress_label_ = nullptr;
   HelpOverlay* help_ = nullptr;
   ViewPicker* picker_ = nullptr;
+  FrameTurn turn_;
 };
 
 }  // namespace stillframe::viewer

@@ -1,6 +1,5 @@
 // The frames of SceneWidget: drawn in steps, an event each.
 #include <QScopedValueRollback>
-#include <QTimer>
 #include <QWindow>
 #include <utility>
 
@@ -19,11 +18,29 @@ using At = FrameSteps::At;
 constexpr double kSoftwareBudgetMs = 33.0;
 constexpr double kHardwareBudgetMs = 12.0;
 
+QSize sizePxOf(const QWidget& widget) {
+  const QSizeF size_px = QSizeF(widget.size()) * widget.devicePixelRatioF();
+  return {qRound(size_px.width()), qRound(size_px.height())};
+}
+
+QString problemText(const scenegraph::Status& status) {
+  return SceneWidget::tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(status.message));
+}
+
 }  // namespace
 
 void SceneWidget::update() {
   steps_.is_wanted = true;
-  QOpenGLWidget::update();
+  askForFrame();
+}
+
+/// Where OpenGL is software views take turns in drawing, and what paints the window only shows what is drawn.
+void SceneWidget::askForFrame() {
+  if (is_software_ && is_context_usable_ && !steps_.is_blank) {
+    turn_.ask();
+  } else {
+    QOpenGLWidget::update();
+  }
 }
 
 QImage SceneWidget::grabFramebuffer() {
@@ -36,14 +53,38 @@ QImage SceneWidget::grabFramebuffer() {
 }
 
 void SceneWidget::paintGL() {
-  if (!is_context_usable_ || steps_.at == At::UnderWay) {
+  if (!is_context_usable_) {
     return;
   }
   if (steps_.at == At::Ready) {
     pipeline_->present(defaultFramebufferObject());
     endFrame();
-  } else {
+  } else if (steps_.at == At::Rest && (!is_software_ || steps_.is_whole)) {
     beginFrame();
+  } else if (steps_.at == At::Rest) {
+    fillBlank();
+    if (steps_.is_wanted) {
+      turn_.ask();
+    }
+  }
+}
+
+/// A new framebuffer shows what the last one did until a frame is whole.
+void SceneWidget::fillBlank() {
+  if (std::exchange(steps_.is_blank, false)) {
+    const QSize size_px = sizePxOf(*this);
+    kept_.put(defaultFramebufferObject(), size_px.width(), size_px.height(),
+              {background_.r, background_.g, background_.b, 1.0F});
+    steps_.is_wanted = true;
+  }
+}
+
+/// Of the size before a resize: the framebuffer goes with it.
+void SceneWidget::keepPicture() {
+  if (is_software_ && is_context_usable_ && !steps_.is_blank && kept_.isEmpty()) {
+    makeCurrent();
+    kept_.take(defaultFramebufferObject(), steps_.shown_px.width(), steps_.shown_px.height());
+    doneCurrent();
   }
 }
 
@@ -53,11 +94,12 @@ void SceneWidget::beginFrame() {
         scene_ == nullptr ? osg::ref_ptr<osg::Group>(new osg::Group) : osg::ref_ptr<osg::Group>(&scene_->root()));
     pipeline_->setPostChain(effects_.chain());
   }
-  const QSizeF size_px = QSizeF(size()) * devicePixelRatioF();
+  const QSize size_px = sizePxOf(*this);
   walk();
   const scenegraph::CameraView view = shownView();
   if (scene_ != nullptr) {
-    scene_->setView(view, {size_px.width(), size_px.height(), devicePixelRatioF()});
+    const QSizeF size = QSizeF(this->size()) * devicePixelRatioF();
+    scene_->setView(view, {size.width(), size.height(), devicePixelRatioF()});
   }
   pipeline_->setView(view);
   pipeline_->setBackground(background_);
@@ -65,19 +107,18 @@ void SceneWidget::beginFrame() {
   pipeline_->setPointLimits(
       {.budget_ms = point_budget_ms_.value_or(is_software_ ? kSoftwareBudgetMs : kHardwareBudgetMs)});
   steps_.is_wanted = false;
-  // A new size has no picture that could stay. The first of a context has none to lose, and takes the longest.
-  if (steps_.is_whole || (steps_.is_blank && !steps_.is_first)) {
-    const auto drawn = pipeline_->render(defaultFramebufferObject(), qRound(size_px.width()), qRound(size_px.height()));
+  // Drawn in steps, a new size would be empty as long.
+  if (steps_.is_whole || (steps_.is_blank && !steps_.is_first && !is_software_)) {
+    const auto drawn = pipeline_->render(defaultFramebufferObject(), size_px.width(), size_px.height());
     showProblem(drawn ? QString() : problemText(drawn.error()));
     endFrame();
     return;
   }
-  if (std::exchange(steps_.is_blank, false)) {
-    scenegraph::gl::clearColor(defaultFramebufferObject(), {background_.r, background_.g, background_.b, 1.0F});
-  }
+  fillBlank();
+  steps_.is_wanted = false;
   steps_.at = At::UnderWay;
   continueFrame();
-  if (steps_.at == At::Ready) {
+  if (steps_.at == At::Ready && !is_software_) {
     pipeline_->present(defaultFramebufferObject());
     endFrame();
   }
@@ -85,48 +126,57 @@ void SceneWidget::beginFrame() {
 
 /// A step of the frame that is under way, the context being current.
 void SceneWidget::continueFrame() {
-  const QSizeF size_px = QSizeF(size()) * devicePixelRatioF();
-  const auto drawn = pipeline_->step(defaultFramebufferObject(), qRound(size_px.width()), qRound(size_px.height()),
-                                     FrameSteps::kBudgetMs);
+  const QSize size_px = sizePxOf(*this);
+  const auto drawn =
+      pipeline_->step(defaultFramebufferObject(), size_px.width(), size_px.height(), FrameSteps::kBudgetMs);
   showProblem(drawn ? QString() : problemText(drawn.error()));
   if (!drawn) {
     steps_.at = At::Rest;
   } else if (*drawn) {
     steps_.at = At::Ready;
   } else {
-    QTimer::singleShot(0, this, &SceneWidget::stepFrame);
+    turn_.ask();
   }
 }
 
-void SceneWidget::stepFrame() {
-  if (steps_.at != At::UnderWay) {
-    return;
+/// A turn of this view. Returns whether its frame goes on.
+bool SceneWidget::stepFrame() {
+  if (steps_.at == At::Ready || (steps_.at == At::Rest && !steps_.is_wanted)) {
+    return false;
   }
   const QWindow* const shown_in = window()->windowHandle();
-  if (pipeline_ == nullptr || !is_context_usable_ || isLent() || !isVisible() || shown_in == nullptr ||
-      !shown_in->isExposed()) {
-    steps_.at = At::Rest;  // what shows the view again asks for a frame
-    requestTick();
-    return;
+  if (!is_context_usable_ || isLent() || !isVisible() || shown_in == nullptr || !shown_in->isExposed()) {
+    if (std::exchange(steps_.at, At::Rest) == At::UnderWay) {
+      steps_.is_wanted = true;  // what shows the view again asks for a frame
+      requestTick();
+    }
+    return false;
   }
   makeCurrent();
-  continueFrame();
+  if (steps_.at == At::UnderWay) {
+    continueFrame();
+  } else {
+    beginFrame();
+  }
   doneCurrent();
   if (steps_.at == At::Ready) {
     QOpenGLWidget::update();
   }
+  return steps_.at == At::UnderWay;
 }
 
 void SceneWidget::endFrame() {
   steps_.at = At::Rest;
   steps_.is_blank = steps_.is_first = false;
+  steps_.shown_px = sizePxOf(*this);
+  kept_.release();
   ++frames_drawn_;
   showProgress();
   picker_->place();
   if (keys_.isWalking() || camera_.isMoving(now()) || pointShare() < 1.0) {
     update();
   } else if (steps_.is_wanted) {
-    QOpenGLWidget::update();  // asked for while this one was drawn
+    askForFrame();  // while this one was drawn
   }
   if (std::exchange(steps_.has_put_tick, false)) {
     requestTick();
@@ -134,10 +184,6 @@ void SceneWidget::endFrame() {
   for (; logged_messages_ < debug_log_.messages().size(); ++logged_messages_) {
     qCWarning(glLog).noquote() << QString::fromStdString(debug_log_.messages()[logged_messages_]);
   }
-}
-
-QString SceneWidget::problemText(const scenegraph::Status& status) const {
-  return tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(status.message));
 }
 
 }  // namespace stillframe::viewer

@@ -21,6 +21,7 @@ constexpr double kWheelNotch = 120.0;  // eighths of a degree, as QWheelEvent co
 /// QOpenGLWidget paints within each resize, and once more when the window does: a splitter that settles in three steps
 /// would draw four frames for one that is seen.
 void SceneWidget::resizeEvent(QResizeEvent* event) {
+  keepPicture();
   {
     const QScopedValueRollback resizing(is_resizing_, true);
     QOpenGLWidget::resizeEvent(event);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scenegraph/pipeline/gl_target.h"
+#include "scenegraph/pipeline/transparency.h"
 #include "scenegraph/stopwatch.h"
 
 namespace stillframe::scenegraph {
@@ -59,11 +60,25 @@ void SceneSteps::countDrawn() {
   is_used_up_ = now_ms > budget_ms_;
 }
 
+/// How many there are turns out with the last one.
+void SceneSteps::drawPieces(Transparency& blended, osgUtil::RenderBin& bin, osg::RenderInfo& render_info,
+                            osgUtil::RenderLeaf*& previous) {
+  seen_ += blended.pieces();
+  while (!blended.isDone() && isNext()) {
+    blended.drawPiece(bin, render_info, previous);
+    countDrawn();
+  }
+}
+
 void SceneSteps::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& render_info,
                                     osgUtil::RenderLeaf*& previous) {
   const auto other = others_.find(bin);
   const bool is_taken = other != others_.end() && other->second != nullptr;
   if (is_taken || bin->getStateSet() != nullptr || !bin->getRenderBinList().empty()) {
+    if (auto* const blended = is_taken ? dynamic_cast<Transparency*>(other->second.get()) : nullptr) {
+      drawPieces(*blended, *bin, render_info, previous);
+      return;
+    }
     if (!isNext()) {
       return;
     }

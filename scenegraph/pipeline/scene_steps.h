@@ -11,12 +11,14 @@
 
 namespace stillframe::scenegraph {
 
+class Transparency;
+
 /// Draws the scene pass in several goes, each as long as a budget, what was drawn before being left out.
 ///
 /// A go ends with the drawable that uses its budget up, and before one that would, by what it took in the last picture:
 /// it lasts as long as the budget, or as the one drawable that takes longer. The
 /// scene is culled in each; as long as nothing changes in it meanwhile, all goes together draw what one would have
-/// drawn, in the same order. What is blended (Transparency) counts as one drawable. Thread of the context only.
+/// drawn, in the same order. What is blended is drawn in pieces of its own (Transparency). Thread of the context only.
 // NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): OSG counts references
 class SceneSteps : public osgUtil::RenderBin::DrawCallback {
  public:
@@ -36,6 +38,8 @@ class SceneSteps : public osgUtil::RenderBin::DrawCallback {
   ~SceneSteps() override = default;
 
  private:
+  void drawPieces(Transparency& blended, osgUtil::RenderBin& bin, osg::RenderInfo& render_info,
+                  osgUtil::RenderLeaf*& previous);
   [[nodiscard]] bool isNext();
   [[nodiscard]] double& costOf(std::size_t drawable);
   void countDrawn();

@@ -325,10 +325,19 @@ void Stages::showOnly(std::size_t index, bool clears) {
 void Stages::showAll() {
   scene_camera_->setClearMask(kSceneTargets);
   steps_->setBudget(std::numeric_limits<double>::infinity(), false);
-  steps_->begin();
+  beginSteps();
   for (unsigned i = 0; i < group_->getNumChildren(); ++i) {
     group_->getChild(i)->setNodeMask(~0U);
   }
+}
+
+void Stages::beginSteps() {
+  steps_->begin();
+  transparency_->begin();
+}
+
+std::size_t Stages::lastOfSubFrame() const {
+  return averaging_ == nullptr ? count() - 1 : group_->getChildIndex(averaging_);
 }
 
 void Stages::release(osg::State& state) {

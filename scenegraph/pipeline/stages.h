@@ -56,6 +56,10 @@ class Stages {
   /// The next frame draws the one of them alone; `clears` the scene's targets, where it is the scene.
   void showOnly(std::size_t index, bool clears);
   void showAll();
+  /// The next frames draw the scene in steps, from its beginning.
+  void beginSteps();
+  /// The last of the cameras that each sub-frame draws; those after it draw what is averaged.
+  [[nodiscard]] std::size_t lastOfSubFrame() const;
   [[nodiscard]] SceneSteps& steps() noexcept { return *steps_; }
   /// The graph lets go of the scene and frees its own GL objects.
   void release(osg::State& state);

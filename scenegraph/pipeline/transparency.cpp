@@ -6,7 +6,6 @@
 #include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/Scissor>
-#include <vector>
 
 #include "generated/stillframe_render/shaders.h"
 #include "scenegraph/geometry.h"
@@ -64,8 +63,8 @@ void Transparency::adopt(osgUtil::CullVisitor& cull) {
   auto& bins = cull.getCurrentRenderBin()->getRenderBinList();
   const auto found = bins.find(kTransparentBin);
   is_in_use_ = found != bins.end();
-  bands_ = 0;
   if (!is_in_use_) {
+    bands_ = 0;
     return;
   }
   for (auto flat = bins.upper_bound(0); flat != found; ++flat) {
@@ -79,31 +78,72 @@ void Transparency::adopt(osgUtil::CullVisitor& cull) {
 
 void Transparency::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& render_info,
                                       osgUtil::RenderLeaf*& previous) {
+  start();
+  while (!to_do_.empty()) {
+    clearLists();
+    collect(*bin, render_info, previous);
+    endRows(render_info);
+  }
+}
+
+void Transparency::drawPiece(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous) {
+  if (!is_begun_) {
+    start();
+  }
+  ++pieces_;
+  std::vector<osgUtil::RenderLeaf*> leaves = bin.getRenderLeafList();
+  for (const osgUtil::StateGraph* const graph : bin.getStateGraphList()) {
+    for (const auto& leaf : graph->_leaves) {
+      leaves.push_back(leaf.get());
+    }
+  }
+  const bool has_bins = !bin.getRenderBinList().empty();  // of its own: they are drawn with it
+  if (collected_ == (has_bins ? 1 : leaves.size())) {
+    endRows(render_info);
+    collected_ = 0;
+    return;
+  }
+  if (collected_ == 0) {
+    clearLists();
+  }
+  if (has_bins) {
+    collect(bin, render_info, previous);
+  } else {
+    const osg::ref_ptr<osgUtil::RenderBin> alone = new osgUtil::RenderBin;
+    alone->getRenderLeafList().push_back(leaves[collected_]);
+    collect(*alone, render_info, previous);
+  }
+  ++collected_;
+}
+
+void Transparency::start() {
   makeLists();
   bands_ = 0;
-  std::vector<Rows> to_do{{0, height_px_}};
-  while (!to_do.empty()) {
-    const Rows rows = to_do.back();
-    to_do.pop_back();
-    collect(*bin, render_info, previous, rows);
-    const std::uint32_t fragments = gl::readNumber(count_);
-    if (fragments == 0) {
-      continue;
-    }
-    if (fragments > capacity_) {
-      if (grow(fragments)) {
-        to_do.push_back(rows);
-        continue;
-      }
-      if (rows.count > 1) {
-        to_do.push_back({rows.first + rows.count / 2, rows.count - rows.count / 2});
-        to_do.push_back({rows.first, rows.count / 2});
-        continue;
-      }
-    }
-    layOver(render_info, rows);
-    ++bands_;
+  to_do_ = {{0, height_px_}};
+  is_begun_ = true;
+}
+
+/// What was collected goes into the picture; where there was no room for it, its rows are to be collected anew.
+void Transparency::endRows(osg::RenderInfo& render_info) {
+  const Rows rows = to_do_.back();
+  to_do_.pop_back();
+  const std::uint32_t fragments = gl::readNumber(count_);
+  if (fragments == 0) {
+    return;
   }
+  if (fragments > capacity_) {
+    if (grow(fragments)) {
+      to_do_.push_back(rows);
+      return;
+    }
+    if (rows.count > 1) {
+      to_do_.push_back({rows.first + rows.count / 2, rows.count - rows.count / 2});
+      to_do_.push_back({rows.first, rows.count / 2});
+      return;
+    }
+  }
+  layOver(render_info, rows);
+  ++bands_;
 }
 
 void Transparency::makeLists() {
@@ -132,10 +172,13 @@ bool Transparency::grow(std::uint32_t fragments) {
   return true;
 }
 
-void Transparency::collect(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous,
-                           const Rows& rows) {
+void Transparency::clearLists() {
   gl::clearNumbers(heads_);
   gl::clearNumbers(count_);
+}
+
+void Transparency::collect(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous) {
+  const Rows& rows = to_do_.back();
   gl::bindNumbers(0, heads_, 1);
   gl::bindNumbers(1, count_, 1);
   gl::bindNumbers(2, fragments_, 4);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <osg/Geometry>
 #include <osg/StateSet>
@@ -7,6 +8,7 @@
 #include <osg/ref_ptr>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderBin>
+#include <vector>
 
 #include "scenegraph/pipeline/blend_limits.h"
 
@@ -31,8 +33,15 @@ class Transparency : public osgUtil::RenderBin::DrawCallback {
 
   /// To be called when `cull` has been through the scene: takes over the bin of what is blended, if there is one.
   void adopt(osgUtil::CullVisitor& cull);
+  /// All of it.
   void drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& render_info,
                           osgUtil::RenderLeaf*& previous) override;
+  /// The same in pieces, over several frames: a drawable each, and at last what lays the lists over the picture.
+  void begin() noexcept { collected_ = pieces_ = 0, is_begun_ = false; }
+  void drawPiece(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous);
+  /// That are drawn since begin().
+  [[nodiscard]] std::size_t pieces() const noexcept { return pieces_; }
+  [[nodiscard]] bool isDone() const noexcept { return is_begun_ && to_do_.empty(); }
   /// Whether the last frame had anything blended.
   [[nodiscard]] bool isInUse() const noexcept { return is_in_use_; }
   /// Bands that the last frame was drawn in; 0 without anything blended.
@@ -50,7 +59,10 @@ class Transparency : public osgUtil::RenderBin::DrawCallback {
   };
   void makeLists();
   bool grow(std::uint32_t fragments);
-  void collect(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous, const Rows& rows);
+  void start();
+  void clearLists();
+  void collect(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous);
+  void endRows(osg::RenderInfo& render_info);
   void layOver(osg::RenderInfo& render_info, const Rows& rows);
 
   int width_px_;
@@ -59,6 +71,10 @@ class Transparency : public osgUtil::RenderBin::DrawCallback {
   std::uint32_t most_fragments_;
   bool is_in_use_ = false;
   int bands_ = 0;
+  bool is_begun_ = false;
+  std::vector<Rows> to_do_;    // of the picture; the last are being collected
+  std::size_t collected_ = 0;  // drawables of them
+  std::size_t pieces_ = 0;
   osg::ref_ptr<osg::StateSet> collecting_;
   osg::ref_ptr<osg::Geometry> laying_over_;
   // Names of textures, 0 before they are needed.

@@ -136,8 +136,8 @@ PointWay ViewPipeline::Impl::wayOf(const PointCollection& points) const {
   return points.count >= kPointsThatPayOnAGpu && ComputePoints::suits(points) ? PointWay::Compute : PointWay::OpenGl;
 }
 
-/// For the present sub-frame; what is averaged over several is drawn whole.
-void ViewPipeline::Impl::drawPoints() {
+/// For the present sub-frame; of several each is drawn with all points, in as many goes as the budget wants.
+void ViewPipeline::Impl::drawPoints(double sub_frame_budget_ms) {
   PointCollection points;
   const bool is_gl_alone = point_way == PointWay::OpenGl || (point_way == PointWay::Auto && stages->samples() > 1);
   if (!is_gl_alone) {
@@ -158,7 +158,7 @@ void ViewPipeline::Impl::drawPoints() {
     }
     PointLimits limits = point_limits;
     if (stages->subFrames() > 1) {
-      limits.budget_ms = std::numeric_limits<double>::infinity();
+      limits.budget_ms = sub_frame_budget_ms;
     } else if (isPaced()) {
       constexpr double kLeast = 0.25;    // of the budget: the picture of the points must come to an end
       constexpr double kUnknown = 0.75;  // of it, in a first frame, which makes shaders and textures

@@ -62,8 +62,7 @@ class ViewPipeline {
   std::expected<void, Status> render(std::uint32_t output_fbo, int width_px, int height_px);
   /// The same picture in steps, each of about `budget_ms` (of a wait for OpenGL, where it is software) and at most one
   /// drawable or pass more: true once all is drawn and present() shows it. View, points and background are those of
-  /// the first step; another size, chain or render() begin anew. The scene must stay as it is meanwhile. Averaged
-  /// sub-frames are one step.
+  /// the first step; another size, chain or render() begin anew. The scene must stay as it is meanwhile.
   std::expected<bool, Status> step(std::uint32_t output_fbo, int width_px, int height_px, double budget_ms);
   /// Presents what step() has drawn, over the whole of `output_fbo`. Does nothing before that.
   void present(std::uint32_t output_fbo);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <osgViewer/GraphicsWindow>
 #include <osgViewer/Viewer>
 
@@ -15,8 +16,10 @@ namespace stillframe::scenegraph {
 
 /// A picture that is being drawn in steps.
 struct SteppedPicture {
-  std::size_t stage = 0;  // that is drawn next
-  bool is_begun = false;  // the scene's targets are cleared
+  int sub_frame = 0;
+  std::size_t stage = 0;    // of it, that is drawn next
+  bool has_points = false;  // those that are not drawn with the scene
+  bool is_begun = false;    // the scene's targets are cleared
 };
 
 /// What a ViewPipeline is made of; for its sources alone.
@@ -55,7 +58,8 @@ struct ViewPipeline::Impl {
   void dropStages();
   void adoptGlState();
   [[nodiscard]] PointWay wayOf(const PointCollection& points) const;
-  void drawPoints();
+  void drawPoints(double sub_frame_budget_ms = std::numeric_limits<double>::infinity());
+  bool stepPoints(double budget_ms);
   void dropPoints();
   void drawFrame();
   [[nodiscard]] bool isPaced() const { return is_software && std::isfinite(point_limits.budget_ms); }

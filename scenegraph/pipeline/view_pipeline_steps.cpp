@@ -30,34 +30,25 @@ std::expected<bool, Status> ViewPipeline::step(std::uint32_t output_fbo, int wid
     return std::unexpected(remade.error());
   }
   Stages& stages = *impl.stages;
-  if (stages.subFrames() > 1) {  // what is averaged is drawn whole
-    if (const auto drawn = impl.draw(output_fbo, width_px, height_px, true); !drawn) {
-      return std::unexpected(drawn.error());
-    }
-    impl.stepped = SteppedPicture{.stage = stages.count() - 1, .is_begun = true};
-    return true;
-  }
   const bool is_new = *remade || !impl.stepped;
   if (is_new) {
     impl.stepped.emplace();
     impl.projection_matrix = projection(impl.view, static_cast<double>(width_px) / height_px);
     stages.setView(toOsg(impl.view.eye_from_fixed), impl.projection_matrix, impl.background);
-    stages.startSubFrame(0);
-    stages.steps().begin();
+    impl.rest_ms = 0.0;  // is not drawn in the same step
   }
   impl.startPicture(output_fbo);
-  if (is_new) {
-    impl.rest_ms = 0.0;  // is not drawn in the same step
-    impl.drawPoints();
-    if (millisecondsSince(start) > kMuch * budget_ms) {
-      return false;
-    }
-  }
   SteppedPicture& at = *impl.stepped;
-  for (bool is_first = !is_new; at.stage + 1 < stages.count(); is_first = false) {
+  for (bool is_first = true; at.stage + 1 < stages.count(); is_first = false) {
     const double left_ms = budget_ms - millisecondsSince(start);
     if (!is_first && left_ms <= 0.0) {
       return false;
+    }
+    if (!at.has_points) {
+      if (!impl.stepPoints(budget_ms) || millisecondsSince(start) > kMuch * budget_ms) {
+        return false;
+      }
+      continue;
     }
     stages.showOnly(at.stage, !at.is_begun);
     stages.steps().setBudget(left_ms, impl.is_software);
@@ -75,8 +66,22 @@ std::expected<bool, Status> ViewPipeline::step(std::uint32_t output_fbo, int wid
     if (at.stage > 0 || stages.steps().isDone()) {
       ++at.stage;
     }
+    if (at.sub_frame + 1 < stages.subFrames() && at.stage > stages.lastOfSubFrame()) {
+      at = {.sub_frame = at.sub_frame + 1};
+    }
   }
   return true;
+}
+
+/// Of the present sub-frame. Returns whether that has all of its points: those of a picture that is not averaged
+/// become more with the next.
+bool ViewPipeline::Impl::stepPoints(double budget_ms) {
+  SteppedPicture& at = *stepped;
+  stages->startSubFrame(at.sub_frame);
+  stages->beginSteps();
+  drawPoints(budget_ms);
+  at.has_points = stages->subFrames() == 1 || !point_progress || point_progress->share >= 1.0;
+  return at.has_points;
 }
 
 void ViewPipeline::present(std::uint32_t output_fbo) {

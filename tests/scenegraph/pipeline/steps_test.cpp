@@ -1,0 +1,161 @@
+// Pictures that are drawn in steps: those that are drawn at once, to the bit.
+#include "tests/scenegraph/pipeline/output.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <osg/MatrixTransform>
+#include <utility>
+#include <vector>
+
+#include "scenegraph/blending.h"
+#include "scenegraph/passes/antialiasing.h"
+#include "scenegraph/pipeline/offscreen_context.h"
+#include "scenegraph/pipeline/view_pipeline.h"
+#include "tests/scenegraph/pipeline/shader_scene.h"
+
+namespace stillframe::scenegraph {
+namespace {
+
+constexpr int kWidth = 96;
+constexpr int kHeight = 72;
+
+PostChain supersampling(int samples) {
+  PostChain chain;
+  appendAntialiasing({.mode = "ssaa", .samples = samples}, chain);
+  return chain;
+}
+
+class PictureSteps : public ::testing::Test {
+ protected:
+  struct Pixels {
+    std::vector<float> colors;
+    std::vector<float> depths;
+    bool operator==(const Pixels&) const = default;
+  };
+
+  void SetUp() override {
+    auto context = OffscreenContext::create();
+    ASSERT_TRUE(context) << context.error().message;
+    context_ = std::move(*context);
+    output_ = std::make_unique<Output>(kWidth, kHeight);
+    pipeline_ = std::make_unique<ViewPipeline>(root_);
+    pipeline_->setView({.eye_from_fixed = lookAt({0, 0, 3}, {0, 0, 0}, {0, 1, 0})});
+    pipeline_->setBackground({0.1F, 0.1F, 0.2F, 1});
+  }
+  void TearDown() override {
+    pipeline_.reset();
+    output_.reset();
+    EXPECT_EQ(context_->debugLog().count(), 0U) << ::testing::PrintToString(context_->debugLog().messages());
+  }
+
+  /// Panes of one colour each that run through each other.
+  void addPanes(int count) {
+    for (int i = 0; i < count; ++i) {
+      const float share = static_cast<float>(i) / static_cast<float>(count);
+      const osg::ref_ptr<osg::MatrixTransform> turned =
+          new osg::MatrixTransform{osg::Matrixd::rotate(3.1 * share + 0.1, osg::Vec3d(0.2, 1.0, 0.1))};
+      turned->addChild(makeQuad(1.5F, 1.2F, 0.1F * share, {share, 1.0F - share, 0.5F, 0.3F}));
+      setBlended(*turned->getOrCreateStateSet(), true);
+      root_->addChild(turned);
+    }
+  }
+
+  [[nodiscard]] Pixels read() const { return {pipeline_->readColor(0, kHeight), pipeline_->readDepth(0, kHeight)}; }
+  [[nodiscard]] Pixels atOnce() {
+    EXPECT_TRUE(pipeline_->render(output_->id(), kWidth, kHeight));
+    return read();
+  }
+  /// Steps that a picture takes, each as short as can be; its pixels are read().
+  [[nodiscard]] int inSteps(double budget_ms = 0.0) {
+    for (int steps = 1; steps < 10'000; ++steps) {
+      const auto drawn = pipeline_->step(output_->id(), kWidth, kHeight, budget_ms);
+      if (!drawn || *drawn) {
+        EXPECT_TRUE(drawn);
+        return steps;
+      }
+    }
+    ADD_FAILURE() << "it does not come to an end";
+    return 0;
+  }
+
+  std::unique_ptr<OffscreenContext> context_;
+  std::unique_ptr<Output> output_;
+  osg::ref_ptr<osg::Group> root_ = new osg::Group;
+  std::unique_ptr<ViewPipeline> pipeline_;
+};
+
+TEST_F(PictureSteps, EveryBlendedThingIsAStepOfItsOwn) {
+  root_->addChild(makeQuad(1, 1, 0, {1, 0, 0, 1}));
+  const int without = inSteps();
+  addPanes(12);
+  const Pixels at_once = atOnce();
+  EXPECT_EQ(pipeline_->blendedBands(), 1);
+  for (int round = 0; round < 3; ++round) {
+    EXPECT_EQ(inSteps(), without + 12 + 1) << "and what lays them over the picture";
+    EXPECT_TRUE(read() == at_once) << round;
+    EXPECT_EQ(pipeline_->blendedBands(), 1);
+    pipeline_->present(output_->id());
+  }
+  EXPECT_EQ(inSteps(1e6), 1);
+  EXPECT_TRUE(read() == at_once);
+}
+
+TEST_F(PictureSteps, BlendedThingsBeyondTheRoomForThemComeInBandsAsWell) {
+  addPanes(12);
+  const Pixels at_once = atOnce();
+  pipeline_->setBlendLimits({.most_fragments = 1U << 12U});
+  EXPECT_GT(inSteps(), 3 * 12);
+  EXPECT_TRUE(read() == at_once);
+  const int bands = pipeline_->blendedBands();
+  EXPECT_GT(bands, 3);
+  EXPECT_TRUE(atOnce() == at_once);
+  EXPECT_EQ(pipeline_->blendedBands(), bands);
+}
+
+TEST_F(PictureSteps, OtherThingsThatAreBlendedMeanwhileEndWithThePicture) {
+  addPanes(6);
+  const Pixels at_once = atOnce();
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), false);
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), false);
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), false);
+  EXPECT_TRUE(atOnce() == at_once) << "what was begun is left";
+  EXPECT_GT(inSteps(), 6);
+  EXPECT_TRUE(read() == at_once);
+}
+
+TEST_F(PictureSteps, EachSubFrameIsDrawnInStepsOfItsOwn) {
+  root_->addChild(makeQuad(1, 1, 0, {1, 0, 0, 1}));
+  addPanes(3);
+  const int without = inSteps();
+  for (const int samples : {4, 8}) {
+    const auto chain = supersampling(samples);
+    pipeline_->setPostChain(chain);
+    const Pixels at_once = atOnce();
+    EXPECT_GE(inSteps(), samples * without) << samples;
+    EXPECT_TRUE(read() == at_once) << samples;
+    pipeline_->present(output_->id());
+    EXPECT_GE(inSteps(), samples * without) << samples;
+    EXPECT_TRUE(read() == at_once) << samples;
+  }
+}
+
+TEST_F(PictureSteps, PointsOfSubFramesAreAllThere) {
+  std::vector<osg::Vec3> points;
+  std::vector<osg::Vec4> colors;
+  for (int i = 0; i < 20'000; ++i) {
+    const auto at = static_cast<float>(i);
+    points.emplace_back(std::sin(at * 0.37F), std::sin(at * 0.73F), std::sin(at * 1.17F));
+    colors.emplace_back(0.5F + 0.5F * std::sin(at), 0.5F, 0.2F, 1.0F);
+  }
+  root_->addChild(makeShape(GL_POINTS, points, colors));
+  pipeline_->setPointWay(PointWay::Cpu);
+  pipeline_->setPostChain(supersampling(4));
+  const Pixels at_once = atOnce();
+  EXPECT_GT(inSteps(), 4);
+  EXPECT_TRUE(read() == at_once);
+}
+
+}  // namespace
+}  // namespace stillframe::scenegraph

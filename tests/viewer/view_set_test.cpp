@@ -259,6 +259,22 @@ TEST_F(LayoutFileTest, NewWindowIsTheSavedOneToThePixelAndToTheByte) {
   expectRestored();
 }
 
+TEST_F(LayoutFileTest, WindowOfTheSavedActiveViewIsTheActiveOne) {
+  auto layout = scenegraph::readLayout(file_.toStdString());
+  ASSERT_TRUE(layout);
+  layout->active_view = 4;  // in the window of its own
+  open({.files = {"robot.mcap"}, .time = "+3", .layout = *layout});
+  EXPECT_TRUE(QTest::qWaitForWindowActive(set().windows()[0]));
+  EXPECT_EQ(&set().active(), views()[3]);
+  EXPECT_TRUE(window_->testAttribute(Qt::WA_ShowWithoutActivating)) << "a window manager would activate it";
+  layout->active_view = 2;
+  window_->restore(*layout);
+  EXPECT_TRUE(QTest::qWaitForWindowActive(window_.get()));
+  EXPECT_EQ(&set().active(), views()[1]);
+  EXPECT_TRUE(views()[1]->view().hasFocus());
+  EXPECT_TRUE(set().windows()[0]->testAttribute(Qt::WA_ShowWithoutActivating));
+}
+
 TEST_F(LayoutFileTest, OpenedLayoutReplacesTheViewsOfAWindow) {
   open({.files = {"robot.mcap"}, .time = "+3", .views = 2});
   ASSERT_TRUE(window_->openLayout(file_.toStdString()));

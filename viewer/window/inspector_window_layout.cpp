@@ -4,7 +4,6 @@
 #include <QMenu>
 #include <QSaveFile>
 
-#include "viewer/widget/scene_widget.h"
 #include "viewer/window/inspector_window.h"
 #include "viewer/window/message_bar.h"
 #include "viewer/window/window_place.h"
@@ -68,7 +67,6 @@ void InspectorWindow::restore(const scenegraph::Layout& layout) {
     restoreState(QByteArray::fromBase64(QByteArray::fromStdString(main.docks)));
   }
   views_->arrange(layout);
-  activeView().view().setFocus();
   if (!is_loading_) {
     tellNotRestored();
   }

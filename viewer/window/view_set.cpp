@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "viewer/view/view_panel.h"
+#include "viewer/widget/scene_widget.h"
 #include "viewer/window/view_window.h"
 #include "viewer/window/window_place.h"
 
@@ -113,7 +114,7 @@ bool ViewSet::detach(ViewPanel& panel) {
   if (!takeOut(panel)) {
     return false;
   }
-  openWindow({.width = kWindowWidth, .height = kWindowHeight}).area().insert(panel);
+  openWindow({.width = kWindowWidth, .height = kWindowHeight}, true).area().insert(panel);
   finishArranging();
   return true;
 }
@@ -127,8 +128,9 @@ bool ViewSet::move(ViewPanel& panel, ViewPanel& beside, Side side) {
   return true;
 }
 
-ViewWindow& ViewSet::openWindow(const scenegraph::WindowLayout& place) {
+ViewWindow& ViewSet::openWindow(const scenegraph::WindowLayout& place, bool is_activated) {
   auto* window = new ViewWindow;
+  window->setAttribute(Qt::WA_ShowWithoutActivating, !is_activated);
   windows_.push_back(window);
   bringToPlace(place, *window);
   connect(&window->area(), &ViewArea::dropped, this,
@@ -236,7 +238,7 @@ void ViewSet::arrange(const scenegraph::Layout& layout) {
       main_source_ = of.source;
       main_.arrange(of.place, make_restored);
     } else {
-      ViewWindow& window = openWindow(of);
+      ViewWindow& window = openWindow(of, false);  // a window manager would make each the active one
       window.source = of.source;
       window.area().arrange(of.place, make_restored);
     }
@@ -244,6 +246,11 @@ void ViewSet::arrange(const scenegraph::Layout& layout) {
   }
   if (static_cast<std::size_t>(layout.active_view) <= views_.size()) {
     active_ = views_[static_cast<std::size_t>(layout.active_view) - 1];
+  }
+  main_.window()->setAttribute(Qt::WA_ShowWithoutActivating, active_->window() != main_.window());
+  active_->view().setFocus();
+  if (active_->window()->isVisible()) {  // else it is in the main window, which is about to be shown
+    active_->activateWindow();
   }
   finishArranging();
   Q_EMIT activeChanged();

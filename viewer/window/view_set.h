@@ -39,7 +39,8 @@ class ViewSet : public QObject {
 
   /// The arrangement of all windows; the first is the main one, whose docks and size are the caller's.
   [[nodiscard]] scenegraph::Layout layout() const;
-  /// Replaces all views and windows by those of `layout`.
+  /// Replaces all views and windows by those of `layout`. The active view has the focus, and its window is the active
+  /// one, whether a window manager runs or not.
   void arrange(const scenegraph::Layout& layout);
   /// Windows of detached views say which views they have, and of what recording.
   void nameWindows();
@@ -60,7 +61,7 @@ class ViewSet : public QObject {
   ViewPanel& make();
   [[nodiscard]] ViewArea& areaOf(const ViewPanel& panel) const;
   bool takeOut(ViewPanel& panel);
-  ViewWindow& openWindow(const scenegraph::WindowLayout& place);
+  ViewWindow& openWindow(const scenegraph::WindowLayout& place, bool is_activated);
   void closeEmptyWindows();
   void finishArranging();
   void markActive();

@@ -1,6 +1,7 @@
 #include "scenegraph/layout/read_values.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -105,17 +106,46 @@ void keepUnknown(XmlElement& fresh, const XmlElement& source, std::span<const Kn
     const bool has_key = kind != known.end() && !kind->key.empty();
     return std::pair(element.name, has_key ? readText(element, std::string(kind->key)) : std::string());
   };
-  std::map<std::pair<std::string, std::string>, std::size_t> index;
-  for (std::size_t i = 0; i < fresh.children.size(); ++i) {
-    index.emplace(nameOf(fresh.children[i]), i);
+  std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> places;  // the last first
+  for (std::size_t i = fresh.children.size(); i-- > 0;) {
+    places[nameOf(fresh.children[i])].push_back(i);
   }
+  std::vector<std::pair<std::size_t, XmlElement>> comments;  // and which child each stands before
+  std::vector<XmlElement> waiting;                           // comments, for the child that follows
   for (const XmlElement& child : source.children) {
+    std::size_t place = fresh.children.size();
+    if (child.isComment()) {
+      waiting.push_back(child);
+      continue;
+    }
     if (std::ranges::find(schema->children, child.name) == schema->children.end()) {
       fresh.children.push_back(child);
-    } else if (const auto same = index.find(nameOf(child)); same != index.end()) {
-      keepUnknown(fresh.children[same->second], child, known);
+    } else if (const auto same = places.find(nameOf(child)); same != places.end() && !same->second.empty()) {
+      place = same->second.back();
+      same->second.pop_back();
+      keepUnknown(fresh.children[place], child, known);
+    } else {
+      continue;  // it is gone
+    }
+    for (XmlElement& comment : std::exchange(waiting, {})) {
+      comments.emplace_back(place, std::move(comment));
     }
   }
+  if (comments.empty()) {
+    std::ranges::move(waiting, std::back_inserter(fresh.children));
+    return;
+  }
+  std::ranges::stable_sort(comments, {}, [](const auto& comment) { return comment.first; });
+  std::vector<XmlElement> merged;
+  auto comment = comments.begin();
+  for (std::size_t i = 0; i < fresh.children.size(); ++i) {
+    for (; comment != comments.end() && comment->first == i; ++comment) {
+      merged.push_back(std::move(comment->second));
+    }
+    merged.push_back(std::move(fresh.children[i]));
+  }
+  std::ranges::move(waiting, std::back_inserter(merged));
+  fresh.children = std::move(merged);
 }
 
 }  // namespace stillframe::scenegraph

@@ -41,7 +41,8 @@ struct KnownElement {
   std::string_view key = {};  ///< the attribute that tells several of them apart
 };
 
-/// Adds to `fresh` what `source`, the element it was once read from, holds besides what is known, in all its depth.
+/// Adds to `fresh` what `source`, the element it was once read from, holds besides what is known, in all its depth:
+/// elements behind the known ones, comments before what they stood before.
 void keepUnknown(XmlElement& fresh, const XmlElement& source, std::span<const KnownElement> known);
 
 }  // namespace stillframe::scenegraph

@@ -24,14 +24,13 @@ const std::vector<KnownElement>& knownInWindows() {
   return kKnown;
 }
 
-/// `element` without the children that are read from it.
+/// `element` with no more than the names of the children that are read from it: comments have their places by them.
 XmlElement unreadPart(const XmlElement& element) {
   XmlElement rest{element.name};
   rest.attributes = element.attributes;
   for (const XmlElement& child : element.children) {
-    if (child.name != "Window" && child.name != "Splitter" && child.name != kViewElement) {
-      rest.children.push_back(child);
-    }
+    const bool is_read = child.name == "Window" || child.name == "Splitter" || child.name == kViewElement;
+    rest.children.push_back(is_read ? XmlElement{child.name} : child);
   }
   return rest;
 }

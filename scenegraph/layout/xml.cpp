@@ -3,7 +3,10 @@
 #include <expat.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "scenegraph/layout/xml_text.h"
 
@@ -30,6 +33,8 @@ class Reader {
     XML_SetCharacterDataHandler(parser_.get(), [](void* self, const XML_Char* text, int length) {
       static_cast<Reader*>(self)->addText({text, static_cast<std::size_t>(length)});
     });
+    XML_SetCommentHandler(parser_.get(),
+                          [](void* self, const XML_Char* text) { static_cast<Reader*>(self)->addComment(text); });
     XML_SetStartDoctypeDeclHandler(parser_.get(), [](void* self, const XML_Char*, const XML_Char* system_id,
                                                      const XML_Char* public_id, int is_internal) {
       if (is_internal != 0 || system_id != nullptr || public_id != nullptr) {
@@ -49,6 +54,7 @@ class Reader {
         return refused("MalformedLayout", "line " + line + ": " + reason);
       }
     }
+    std::ranges::move(after_, std::back_inserter(root_.children));
     return std::move(root_);
   }
 
@@ -67,7 +73,7 @@ class Reader {
       stop("more than " + std::to_string(limits_.elements) + " elements");
       return;
     }
-    XmlElement element{name};
+    XmlElement element{name, {}, {}, std::exchange(before_, {})};
     for (; *attributes != nullptr; attributes += 2) {
       element.set(attributes[0], attributes[1]);
     }
@@ -87,6 +93,16 @@ class Reader {
     (open_.empty() ? root_ : open_.back().children.emplace_back()) = std::move(element);
   }
 
+  void addComment(const XML_Char* text) {
+    if (++elements_ > limits_.elements) {
+      stop("more than " + std::to_string(limits_.elements) + " elements");
+      return;
+    }
+    const bool is_before = open_.empty() && root_.name.empty();
+    std::vector<XmlElement>& comments = is_before ? before_ : open_.empty() ? after_ : open_.back().children;
+    comments.push_back({std::string(is_before ? kCommentBefore : open_.empty() ? kCommentAfter : kComment), text});
+  }
+
   void addText(std::string_view text) {
     if (open_.empty()) {
       return;
@@ -103,6 +119,8 @@ class Reader {
   std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;
   XmlElement root_;
   std::vector<XmlElement> open_;
+  std::vector<XmlElement> before_;  // comments before the root
+  std::vector<XmlElement> after_;
   std::size_t elements_ = 0;
   std::string why_;  // of a stop of ours
 };
@@ -111,6 +129,12 @@ class Reader {
 void writeElement(const XmlElement& element, int indent, std::string& out) {  // as deep as the limit of parseXml()
   if (element.name.empty()) {
     appendXmlText(element.text, out);
+    return;
+  }
+  if (element.isComment()) {
+    out += "<!--";
+    appendXmlComment(element.text, out);
+    out += "-->";
     return;
   }
   const std::string_view space = "\n                                                                ";
@@ -162,9 +186,19 @@ std::expected<XmlElement, Status> parseXml(std::string_view text, const XmlLimit
 
 std::string writeXml(const XmlElement& root) {
   std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-  writeElement(root, 0, out);
-  out += "\n";
-  return out;
+  std::string after;
+  XmlElement inner = root;
+  std::erase_if(inner.children, [&](const XmlElement& child) {
+    const bool is_outside = child.name == kCommentBefore || child.name == kCommentAfter;
+    if (is_outside) {
+      std::string& text = child.name == kCommentBefore ? out : after;
+      writeElement(child, 0, text);
+      text += "\n";
+    }
+    return is_outside;
+  });
+  writeElement(inner, 0, out);
+  return out + "\n" + after;
 }
 
 }  // namespace stillframe::scenegraph

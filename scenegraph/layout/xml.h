@@ -11,7 +11,12 @@
 
 namespace stillframe::scenegraph {
 
-/// An element of an XML file as a plain value, or a run of text when it has no name.
+/// Names of comments. Those outside of the root element are the first and the last of its children.
+inline constexpr std::string_view kComment = "!--";
+inline constexpr std::string_view kCommentBefore = "!--<";
+inline constexpr std::string_view kCommentAfter = "!-->";
+
+/// An element of an XML file as a plain value; a run of text when it has no name, a comment when it has one of theirs.
 struct XmlElement {
   std::string name;  ///< "" for text
   std::string text = {};
@@ -22,6 +27,7 @@ struct XmlElement {
   [[nodiscard]] const std::string* attribute(std::string_view key) const;
   /// The first child of that name; nullptr when there is none.
   [[nodiscard]] const XmlElement* child(std::string_view child_name) const;
+  [[nodiscard]] bool isComment() const { return name.starts_with(kComment); }
   void set(std::string key, std::string value) { attributes.emplace_back(std::move(key), std::move(value)); }
   friend bool operator==(const XmlElement&, const XmlElement&) = default;
 };
@@ -34,8 +40,8 @@ struct XmlLimits {
 };
 
 /// Reads a whole XML text: UTF-8, or what its declaration says of ISO-8859-1 and UTF-16. Entities that the text
-/// declares itself are refused, comments are left out, and so is space between elements. Codes "MalformedLayout" (with
-/// the line) and "LayoutTooLarge".
+/// declares itself are refused, and space between elements is left out. Codes "MalformedLayout" (with the line) and
+/// "LayoutTooLarge".
 [[nodiscard]] std::expected<XmlElement, Status> parseXml(std::string_view text, const XmlLimits& limits = {});
 
 /// UTF-8, two spaces an indent, so that parsing and writing again gives the same bytes. What XML cannot hold (control

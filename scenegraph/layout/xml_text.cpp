@@ -66,4 +66,20 @@ void appendXmlText(std::string_view text, std::string& out) { writeEscaped(text,
 
 void appendXmlAttribute(std::string_view text, std::string& out) { writeEscaped(text, true, out); }
 
+void appendXmlComment(std::string_view text, std::string& out) {
+  char before = ' ';
+  while (!text.empty()) {
+    const std::size_t length = characterLength(text);
+    if (text.front() == '-' && before == '-') {
+      out += ' ';
+    }
+    before = text.front();
+    out += length == 0 || before == '\r' ? std::string_view("\xEF\xBF\xBD") : text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  if (before == '-') {
+    out += ' ';
+  }
+}
+
 }  // namespace stillframe::scenegraph

@@ -9,5 +9,7 @@ namespace stillframe::scenegraph {
 void appendXmlText(std::string_view text, std::string& out);
 /// The same between double quotes, where space must be told as it is.
 void appendXmlAttribute(std::string_view text, std::string& out);
+/// The same between the marks of a comment, in which nothing is escaped and no two hyphens may stand together.
+void appendXmlComment(std::string_view text, std::string& out);
 
 }  // namespace stillframe::scenegraph

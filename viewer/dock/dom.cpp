@@ -23,6 +23,8 @@ QDomElement toDom(const XmlElement& element, QDomDocument& document) {
   for (const XmlElement& child : element.children) {
     if (child.name.empty()) {
       made.appendChild(document.createTextNode(QString::fromStdString(child.text)));
+    } else if (child.isComment()) {
+      made.appendChild(document.createComment(QString::fromStdString(child.text)));
     } else {
       made.appendChild(toDom(child, document));
     }
@@ -50,6 +52,8 @@ std::expected<XmlElement, Status> fromDom(const QDomElement& element) {
     for (QDomNode child = from.firstChild(); !fault && !child.isNull(); child = child.nextSibling()) {
       if (child.isElement()) {
         made.children.push_back(convert(child.toElement(), depth + 1));
+      } else if (child.isComment()) {
+        made.children.push_back({.name = std::string(scenegraph::kComment), .text = child.nodeValue().toStdString()});
       } else if (child.isText() && !(has_elements && isSpace(child.nodeValue()))) {
         made.children.push_back({.name = {}, .text = child.nodeValue().toStdString()});
       }

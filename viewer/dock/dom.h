@@ -7,8 +7,8 @@
 
 namespace stillframe::viewer {
 
-/// Between our elements and those of a host's layout. From a host's: attributes in the order of their names, comments
-/// left out; "MalformedLayout" when it is nested deeper than parseXml() allows.
+/// Between our elements and those of a host's layout. From a host's: attributes in the order of their names;
+/// "MalformedLayout" when it is nested deeper than parseXml() allows.
 [[nodiscard]] QDomElement toDom(const scenegraph::XmlElement& element, QDomDocument& document);
 [[nodiscard]] std::expected<scenegraph::XmlElement, scenegraph::Status> fromDom(const QDomElement& element);
 

@@ -88,6 +88,27 @@ TEST(ViewLayout, UnknownAttributesAndElementsSurviveEverywhere) {
   EXPECT_EQ(rewritten(text), text);
 }
 
+TEST(ViewLayout, CommentsStayBeforeWhatTheyStoodBefore) {
+  const std::string text =
+      rewritten(test::viewText("",
+                               "<!-- 1 --><Camera kind=\"fly\"/><!-- 2 --><Later/><!-- 3 --><Layer id=\"/p\"><!-- 4 -->"
+                               "<Setting key=\"k\" value=\"v\"/></Layer><!-- 5 --><Layer id=\"/q\"/><!-- 6 -->"));
+  for (const char* kept : {"<!-- 1 -->\n  <Camera", "<!-- 2 -->\n  <Later/>", "<!-- 3 -->\n  <Layer id=\"/p\"",
+                           "<!-- 4 -->\n    <Setting", "<!-- 5 -->\n  <Layer id=\"/q\"", "<!-- 6 -->\n</"}) {
+    EXPECT_THAT(text, HasSubstr(kept));
+  }
+  EXPECT_EQ(rewritten(text), text);
+}
+
+TEST(ViewLayout, CommentOfWhatIsGoneStays) {
+  auto root = parseXml(test::viewText("", "<!-- of p --><Layer id=\"/p\"/><!-- of q --><Layer id=\"/q\"/>"));
+  ASSERT_TRUE(root);
+  auto layout = viewLayoutOf(*root);
+  ASSERT_TRUE(layout);
+  layout->layers.layers.erase(layout->layers.layers.begin());
+  EXPECT_THAT(writeXml(toXml(*layout)), HasSubstr("<!-- of p -->\n  <!-- of q -->\n  <Layer id=\"/q\""));
+}
+
 TEST(ViewLayout, KnownThingsThatAreGoneDoNotComeBackFromTheSource) {
   ViewLayout layout = reread(test::makeViewLayout());
   layout.fixed_frame.reset();

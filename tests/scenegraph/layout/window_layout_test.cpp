@@ -47,6 +47,27 @@ TEST(WindowLayout, UnknownThingsOfWindowsAndSplittersSurvive) {
   EXPECT_EQ(layoutRewritten(text), text);
 }
 
+TEST(WindowLayout, CommentsOfWindowsSplittersAndTheWholeFileSurvive) {
+  const std::string view = test::viewText("");
+  const std::string text = layoutRewritten(
+      "<!-- whose --><StillframeLayout version=\"1\"><!-- first --><Window><!-- row -->"
+      "<Splitter orientation=\"vertical\" sizes=\"1,2\">" +
+      view + "<!-- below -->" + view + "</Splitter></Window><!-- second --><Window>" + view +
+      "</Window></StillframeLayout><!-- end -->");
+  for (const char* kept :
+       {"<!-- whose -->\n<StillframeLayout", "<!-- first -->\n  <Window", "<!-- row -->\n    <Splitter",
+        "<!-- below -->\n      <Scene3DDock", "<!-- second -->\n  <Window", "</StillframeLayout>\n<!-- end -->\n"}) {
+    EXPECT_NE(text.find(kept), std::string::npos) << kept << " in " << text;
+  }
+  EXPECT_EQ(layoutRewritten(text), text);
+}
+
+TEST(WindowLayout, CommentBeforeOneViewAloneSurvives) {
+  const std::string text = layoutRewritten("<!-- my view -->" + test::viewText("fixed_frame=\"map\""));
+  EXPECT_NE(text.find("<!-- my view -->"), std::string::npos) << text;
+  EXPECT_EQ(layoutRewritten(text), text);
+}
+
 TEST(WindowLayout, OneViewAloneIsALayout) {
   const auto layout = parseLayout(test::viewText("fixed_frame=\"map\""));
   ASSERT_TRUE(layout);

@@ -26,6 +26,38 @@ TEST(Xml, WritesWhatItReadsByteForByte) {
   EXPECT_EQ(again(text), text);
 }
 
+TEST(Xml, CommentsStayWhereTheyStandByteForByte) {
+  const std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<!-- whose it is -->\n"
+      "<!---->\n"
+      "<a>\n"
+      "  <!-- of two\n       lines, with & < > \" and - -->\n"
+      "  <b/>\n"
+      "  <c>words<!-- between --> and more</c>\n"
+      "  <d>\n"
+      "    <!-- alone -->\n"
+      "  </d>\n"
+      "  <!-- last -->\n"
+      "</a>\n"
+      "<!-- the end -->\n";
+  EXPECT_EQ(again(text), text);
+}
+
+TEST(Xml, CommentThatXmlCannotHoldIsWrittenSoThatItIsReadAgain) {
+  XmlElement element{"a"};
+  for (const char* const words : {"--", "-a-", "a--b---", "a\x01\rb", "\xFF"}) {
+    element.children.push_back({.name = std::string(kComment), .text = words});
+  }
+  const std::string written = writeXml(element);
+  EXPECT_EQ(again(written), written);
+}
+
+TEST(Xml, CommentsCountAsElements) {
+  EXPECT_FALSE(parseXml("<a><!-- 1 --><!-- 2 --></a>", {.elements = 2}));
+  EXPECT_TRUE(parseXml("<a><!-- 1 --><!-- 2 --></a>", {.elements = 3}));
+}
+
 TEST(Xml, SpaceInValuesSurvives) {
   XmlElement element{"a"};
   element.set("k", "tab\tline\nreturn\r end ");

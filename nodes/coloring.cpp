@@ -80,7 +80,8 @@ scenegraph::SettingsTable<ValueColoring> valueColoringTable(const std::string& a
             .help = "Share of the values below the last colour.",
             .kind = SettingKind::Double,
             .minimum = 0,
-            .maximum = 100},
+            .maximum = 100,
+            .not_below = "percentile_low"},
            &S::percentile_high},
           {legendSpec(), &S::has_legend}};
 }

@@ -109,6 +109,12 @@ std::unexpected<SettingError> unknownSetting(const std::string& key, const std::
       "UnknownSetting", "no setting '" + key + "'; " + (known.empty() ? "there are none" : "known: " + joined(known))});
 }
 
+std::unexpected<SettingError> wrongOrder(const SettingSpec& high, double value, const SettingSpec& low,
+                                         double low_value) {
+  return std::unexpected(SettingError{"OutOfRange", high.key + "=" + settingText(value) + " is below " + low.key + "=" +
+                                                        settingText(low_value) + "; both may be set at once"});
+}
+
 std::expected<SettingValue, SettingError> parseSetting(const SettingSpec& spec, std::string_view text) {
   const std::string_view word = trimmed(text);
   switch (spec.kind) {

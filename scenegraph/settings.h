@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <expected>
 #include <functional>
@@ -39,6 +40,7 @@ struct SettingSpec {
   SettingKind kind = SettingKind::Text;
   double minimum = 0.0;  ///< Int and Double; equal to maximum: unbounded
   double maximum = 0.0;
+  std::string not_below = {};  ///< Double: the key of another, less than which this must not be
   std::vector<std::string> choices = {};
   bool choices_only = false;
   /// Settings of many like things, each with its own, are shown as a row a thing, which "Namespaces" or "Links" (the
@@ -59,6 +61,10 @@ struct SettingError {
 /// The error "UnknownSetting", with those that there are.
 [[nodiscard]] std::unexpected<SettingError> unknownSetting(const std::string& key,
                                                            const std::vector<std::string>& known);
+
+/// The error "OutOfRange" of a setting that is less than the one it must not be below.
+[[nodiscard]] std::unexpected<SettingError> wrongOrder(const SettingSpec& high, double value, const SettingSpec& low,
+                                                       double low_value);
 
 /// A parsed setting.
 using SettingValue = std::variant<bool, std::int64_t, double, std::string, Color>;
@@ -95,6 +101,8 @@ class SettingsTable {
  private:
   template <typename Other>
   friend class SettingsTable;
+  [[nodiscard]] const Row* find(const std::string& key) const;
+  [[nodiscard]] std::expected<void, SettingError> checkOrder(const S& settings) const;
   // Not inlined: GCC 12 would warn (-Warray-bounds) of member types that S does not have.
   [[gnu::noinline]] static void assign(S& settings, const Member& member, const SettingValue& value);
 
@@ -152,15 +160,31 @@ SettingTexts SettingsTable<S>::texts(const S& settings) const {
 }
 
 template <typename S>
+auto SettingsTable<S>::find(const std::string& key) const -> const Row* {
+  const auto row = std::ranges::find(rows_, key, [](const Row& each) -> const std::string& { return each.spec.key; });
+  return row == rows_.end() ? nullptr : &*row;
+}
+
+template <typename S>
+std::expected<void, SettingError> SettingsTable<S>::checkOrder(const S& settings) const {
+  for (const Row& high : rows_) {
+    const Row* const low = high.spec.not_below.empty() ? nullptr : find(high.spec.not_below);
+    if (low == nullptr) {
+      continue;
+    }
+    const double low_value = settings.*std::get<double S::*>(low->member);
+    if (const double value = settings.*std::get<double S::*>(high.member); value < low_value) {
+      return wrongOrder(high.spec, value, low->spec, low_value);
+    }
+  }
+  return {};
+}
+
+template <typename S>
 std::expected<void, SettingError> SettingsTable<S>::apply(const SettingTexts& texts, S& settings) const {
   S changed = settings;
   for (const auto& [key, text] : texts) {
-    const Row* found = nullptr;
-    for (const Row& row : rows_) {
-      if (row.spec.key == key) {
-        found = &row;
-      }
-    }
+    const Row* const found = find(key);
     if (found == nullptr) {
       std::vector<std::string> known;
       for (const Row& row : rows_) {
@@ -173,6 +197,9 @@ std::expected<void, SettingError> SettingsTable<S>::apply(const SettingTexts& te
       return std::unexpected(value.error());
     }
     assign(changed, found->member, *value);
+  }
+  if (auto ordered = checkOrder(changed); !ordered) {
+    return ordered;
   }
   settings = std::move(changed);
   return {};

@@ -177,8 +177,8 @@ TEST_F(CloudPicture, TakesManualPercentileAndReversedRanges) {
 }
 
 TEST_F(CloudPicture, GivesNanFieldsTheirOwnColourAndDropsNanPoints) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  auto cloud = threePoints({0, 0, kNan}, {kNan, 5, 6});
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  auto cloud = threePoints({0, 0, kNowhere}, {kNowhere, 5, 6});
   open(datasetOf(std::move(cloud)), "map");
   const auto& layer = add("/points", with(kBig, {{"missing_color", "#ff00ff"}}));
   const auto colors = drawThree();

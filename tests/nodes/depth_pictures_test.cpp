@@ -79,10 +79,10 @@ TEST_F(DepthPicture, PutsEachPixelOnItsRayAndColoursItByDepth) {
 }
 
 TEST_F(DepthPicture, LeavesOutHolesAndWhatIsTooFar) {
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
   open(camera(cameraInfo("optical", 5, 1, kFocal))
            .topic("/depth/image_raw", ObjectType::Image)
-           .at(1_s, makeImage<float>("optical", "32FC1", 5, {1.0F, kNan, 2.0F, 0.0F, 4.0F}))
+           .at(1_s, makeImage<float>("optical", "32FC1", 5, {1.0F, kNoDepth, 2.0F, 0.0F, 4.0F}))
            .build(),
        "map");
   auto& layer = add("/depth/image_raw", with(kBig, {{"color_mode", "flat"}}));

@@ -120,6 +120,27 @@ TEST(SettingsTable, AnUnknownKeyIsToldWhatThereIsOrThatThereIsNothing) {
   EXPECT_EQ(unknownSetting("foo", {"a", "b"}).error().message, "no setting 'foo'; known: a, b");
 }
 
+TEST(SettingsTable, RefusesAnEndBelowTheOtherAndChangesNothing) {
+  struct Ends {
+    double low = 1.0;
+    double high = 99.0;
+  };
+  const SettingsTable<Ends> table{
+      {{.key = "low", .label = "Low", .help = "Low.", .kind = SettingKind::Double}, &Ends::low},
+      {{.key = "high", .label = "High", .help = "High.", .kind = SettingKind::Double, .not_below = "low"},
+       &Ends::high}};
+  Ends ends;
+  const auto refused = table.apply({{"low", "99.5"}}, ends);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "OutOfRange");
+  EXPECT_EQ(refused.error().message, "high=99 is below low=99.5; both may be set at once");
+  EXPECT_EQ(ends.low, 1.0);
+  EXPECT_TRUE(table.apply({{"low", "99.5"}, {"high", "99.75"}}, ends));
+  EXPECT_TRUE(table.apply({{"low", "99.75"}}, ends)) << "a range of one value";
+  EXPECT_FALSE(table.apply({{"high", "50"}}, ends));
+  EXPECT_EQ(ends.high, 99.75);
+}
+
 TEST(SettingsTable, TakesTheRowsOfABaseInTheirPlace) {
   const SettingsTable<BaseSettings> base{
       {{.key = "far", .label = "", .help = "", .kind = SettingKind::Double}, &BaseSettings::far_m},

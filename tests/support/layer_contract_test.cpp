@@ -206,6 +206,19 @@ TEST_P(LayerContract, HidesWhenItsFrameHasNoPlaceAndSaysWhy) {
   EXPECT_TRUE(drawsSomething(*scene));
 }
 
+/// The other end of a pair of settings, where neither value of `spec` passes it.
+SettingTexts outOfTheWay(const SettingSpec& spec, const std::vector<SettingSpec>& specs) {
+  SettingTexts texts;
+  for (const SettingSpec& other : specs) {
+    if (other.not_below == spec.key) {
+      texts[other.key] = scenegraph::settingText(other.maximum);
+    } else if (spec.not_below == other.key) {
+      texts[other.key] = scenegraph::settingText(other.minimum);
+    }
+  }
+  return texts;
+}
+
 TEST_P(LayerContract, TakesEverySettingItAnnouncesAndRefusesOthers) {
   const auto scene = makeScene(*at_once);
   scene->update({15_s});
@@ -217,6 +230,8 @@ TEST_P(LayerContract, TakesEverySettingItAnnouncesAndRefusesOthers) {
     EXPECT_FALSE(spec.label.empty() || spec.help.empty()) << spec.key;
     std::vector<std::string> texts = goodTexts(spec);
     texts.push_back(defaults.at(spec.key));
+    const SettingTexts other_end = outOfTheWay(spec, layer.settingSpecs());
+    EXPECT_TRUE(layer.applySettings(other_end));
     for (const std::string& text : texts) {
       const auto applied = layer.applySettings({{spec.key, text}});
       ASSERT_TRUE(applied.has_value()) << spec.key << "=" << text << ": " << applied.error().message;
@@ -232,6 +247,9 @@ TEST_P(LayerContract, TakesEverySettingItAnnouncesAndRefusesOthers) {
       const auto applied = layer.applySettings({{spec.key, text}});
       EXPECT_FALSE(applied.has_value()) << spec.key << "=" << text;
       EXPECT_TRUE(applied.has_value() || applied.error().message.contains(spec.key));
+    }
+    for (const auto& [key, text] : other_end) {
+      EXPECT_TRUE(layer.applySettings({{key, defaults.at(key)}}));
     }
     EXPECT_EQ(layer.settings(), defaults) << spec.key;
   }
@@ -272,6 +290,7 @@ TEST_P(LayerContract, AnyPathToATimeGivesTheSameState) {
       if (!texts.empty()) {
         wanted[spec.key] = texts[random.index(texts.size())];
       }
+      wanted.merge(outOfTheWay(spec, layerOf(*walker).settingSpecs()));
     }
     for (Scene* const scene : {walker.get(), pool_walker.get()}) {
       for (std::size_t step = random.index(6); step > 0; --step) {

@@ -199,6 +199,18 @@ TEST_F(RangeEditorTest, PercentilesHaveTheirOwnEnds) {
   EXPECT_DOUBLE_EQ(box("high").value(), 100.0);
 }
 
+TEST_F(RangeEditorTest, APercentileTakesTheOtherAlongWhenItPassesIt) {
+  editor.setTexts({{"range_mode", "percentile"}, {"percentile_low", "5"}, {"percentile_high", "95"}});
+  box("low").setValue(97.0);
+  EXPECT_EQ(heard, (SettingTexts{{"percentile_low", "97"}, {"percentile_high", "97"}}));
+  editor.setTexts({{"range_mode", "percentile"}, {"percentile_low", "20"}, {"percentile_high", "95"}});
+  box("high").setValue(10.0);
+  EXPECT_EQ(heard, (SettingTexts{{"percentile_low", "10"}, {"percentile_high", "10"}}));
+  editor.setTexts({{"range_mode", "manual"}, {"range_min", "5"}, {"range_max", "8"}});
+  box("low").setValue(9.0);
+  EXPECT_EQ(heard, (SettingTexts{{"range_min", "9"}, {"range_max", "8"}})) << "a range may run downwards";
+}
+
 TEST_F(RangeEditorTest, AnEndIsDraggedInTheHistogram) {
   editor.setHistogram({.low = 0.0, .high = 10.0, .counts = {1, 5, 2, 0, 1}});
   editor.show();

@@ -55,14 +55,13 @@ Result<std::vector<tf::TimePoint>> resolveTimes(const TimesArgument& times,
   if (!first || !last) {
     return std::unexpected(!first ? first.error() : last.error());
   }
-  for (const tf::TimePoint time : {*first, *last}) {
+  for (const auto& [time, argument] : {std::pair(*first, &times.first), {*last, &times.last}}) {
     if (time < range.first || time > range.second) {
-      return usageError("--times: " + std::to_string(time.ns) + " is outside the recording, which spans " +
-                        std::to_string(range.first.ns) + " to " + std::to_string(range.second.ns));
+      return usageError("--times: " + outsideText(*argument, range));
     }
   }
   if (*last < *first) {
-    return usageError("--times: " + std::to_string(last->ns) + " is before " + std::to_string(first->ns));
+    return usageError("--times: " + times.last.text + " is before " + times.first.text);
   }
   // Unsigned: a recording may span more than an int64 can say.
   const std::uint64_t span_ns = static_cast<std::uint64_t>(last->ns) - static_cast<std::uint64_t>(first->ns);

@@ -46,8 +46,7 @@ Result<void> SceneSession::chooseTime() {
     return std::unexpected(time.error());
   }
   if (*time < range->first || *time > range->second) {
-    return usageError(file + ": time " + std::to_string(time->ns) + " is outside the recording, which spans " +
-                      std::to_string(range->first.ns) + " to " + std::to_string(range->second.ns));
+    return usageError(file + ": time " + outsideText(options_.time, *range));
   }
   time_ = *time;
   return {};

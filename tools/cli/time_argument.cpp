@@ -47,17 +47,17 @@ Result<std::int64_t> parseSeconds(std::string_view text) {
 
 Result<TimeArgument> parseTime(std::string_view text) {
   if (text == "start") {
-    return TimeArgument{TimeArgument::Base::Start, 0};
+    return TimeArgument{TimeArgument::Base::Start, 0, std::string(text)};
   }
   if (text == "end") {
-    return TimeArgument{TimeArgument::Base::End, 0};
+    return TimeArgument{TimeArgument::Base::End, 0, std::string(text)};
   }
   if (text.starts_with('+')) {
     const auto offset_ns = parseSeconds(text.substr(1));
     if (!offset_ns) {
       return std::unexpected(offset_ns.error());
     }
-    return TimeArgument{TimeArgument::Base::Start, *offset_ns};
+    return TimeArgument{TimeArgument::Base::Start, *offset_ns, std::string(text)};
   }
   const std::string_view digits = text.starts_with('-') ? text.substr(1) : text;
   if (digits.empty() || !isDigits(digits)) {
@@ -67,7 +67,7 @@ Result<TimeArgument> parseTime(std::string_view text) {
   if (!ns) {
     return usageError("time '" + std::string(text) + "' is beyond the range of 64-bit nanoseconds");
   }
-  return TimeArgument{TimeArgument::Base::Epoch, *ns};
+  return TimeArgument{TimeArgument::Base::Epoch, *ns, std::string(text)};
 }
 
 Result<tf::TimePoint> resolveTime(const TimeArgument& time, const std::pair<tf::TimePoint, tf::TimePoint>& range) {
@@ -81,6 +81,18 @@ Result<tf::TimePoint> resolveTime(const TimeArgument& time, const std::pair<tf::
                       " ns is beyond the range of 64-bit nanoseconds");
   }
   return tf::TimePoint{ns};
+}
+
+std::string outsideText(const TimeArgument& time, const std::pair<tf::TimePoint, tf::TimePoint>& range) {
+  const std::string is_outside = time.text + " is outside the recording, which spans ";
+  std::int64_t span_ns = 0;
+  if (time.base == TimeArgument::Base::Epoch || __builtin_sub_overflow(range.second.ns, range.first.ns, &span_ns)) {
+    return is_outside + std::to_string(range.first.ns) + " to " + std::to_string(range.second.ns);
+  }
+  std::string seconds = secondsText(span_ns);
+  seconds.resize(seconds.find_last_not_of('0') + 1);
+  seconds.resize(seconds.find_last_not_of('.') + 1);
+  return is_outside + "+0 to +" + seconds;
 }
 
 std::string secondsText(std::int64_t ns) {

@@ -14,6 +14,7 @@ struct TimeArgument {
   enum class Base { Epoch, Start, End };
   Base base = Base::End;
   std::int64_t offset_ns = 0;
+  std::string text = {};  ///< as written
 };
 
 /// Exact to the nanosecond: `+0.1` is 100000000 ns, never a rounded double. Refuses what is finer or does not fit.
@@ -23,6 +24,9 @@ struct TimeArgument {
 /// int64 can hold.
 [[nodiscard]] Result<tf::TimePoint> resolveTime(const TimeArgument& time,
                                                 const std::pair<tf::TimePoint, tf::TimePoint>& range);
+
+/// "+3 is outside the recording, which spans +0 to +1.5": in the words in which the time was written.
+[[nodiscard]] std::string outsideText(const TimeArgument& time, const std::pair<tf::TimePoint, tf::TimePoint>& range);
 
 /// `ns` as decimal seconds, exact.
 [[nodiscard]] std::string secondsText(std::int64_t ns);

@@ -63,13 +63,21 @@ RangeEditor::RangeEditor(const std::vector<scenegraph::SettingSpec>& specs, QWid
     }
   });
   connect(mode_, &QComboBox::textActivated, this, &RangeEditor::chooseMode);
-  connect(low_, &QDoubleSpinBox::valueChanged, this, [this](double low) { setEnds(low, high_->value()); });
-  connect(high_, &QDoubleSpinBox::valueChanged, this, [this](double high) { setEnds(low_->value(), high); });
+  // Of percentiles the one that is moved past the other takes that along; a range given may run from high to low.
+  connect(low_, &QDoubleSpinBox::valueChanged, this,
+          [this](double low) { setEnds(low, isPercentile() ? std::max(low, high_->value()) : high_->value()); });
+  connect(high_, &QDoubleSpinBox::valueChanged, this,
+          [this](double high) { setEnds(isPercentile() ? std::min(low_->value(), high) : low_->value(), high); });
   connect(strip_, &RangeStrip::dragged, this, [this](double low, double high) {
     Q_EMIT edited({{"range_mode", "manual"},
                    {"range_min", scenegraph::settingText(low)},
                    {"range_max", scenegraph::settingText(high)}});
   });
+}
+
+bool RangeEditor::isPercentile() const {
+  const auto mode = texts_.find("range_mode");
+  return mode != texts_.end() && mode->second == "percentile";
 }
 
 /// From the range in use: the colours stay until an end is changed.
@@ -83,7 +91,7 @@ void RangeEditor::chooseMode(const QString& mode) {
 }
 
 void RangeEditor::setEnds(double low, double high) {
-  const bool is_percentile = texts_["range_mode"] == "percentile";
+  const bool is_percentile = isPercentile();
   Q_EMIT edited({{is_percentile ? "percentile_low" : "range_min", scenegraph::settingText(low)},
                  {is_percentile ? "percentile_high" : "range_max", scenegraph::settingText(high)}});
 }

@@ -42,6 +42,7 @@ class RangeEditor : public QWidget {
 
  private:
   void chooseMode(const QString& mode);
+  [[nodiscard]] bool isPercentile() const;
   void setEnds(double low, double high);
   void showEnds();
 

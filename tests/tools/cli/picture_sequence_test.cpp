@@ -55,6 +55,17 @@ TEST(PictureSequence, RefusesWhatIsNoSequence) {
   }
 }
 
+TEST(PictureSequence, RefusesInTheWordsOfTheUser) {
+  const auto refusal = [](std::string_view text) {
+    const auto times = resolveTimes(*parseTimes(text), kSeconds);
+    return times ? "" : times.error().message;
+  };
+  EXPECT_EQ(refusal("+3:+1.5:1"), "--times: +1.5 is before +3");
+  EXPECT_EQ(refusal("end:start:1"), "--times: start is before end");
+  EXPECT_EQ(refusal("+3:+10.25:1"), "--times: +10.25 is outside the recording, which spans +0 to +10");
+  EXPECT_EQ(refusal("7:end:1"), "--times: 7 is outside the recording, which spans 1000000000 to 11000000000");
+}
+
 TEST(NumberedNames, StandWhereThePatternSaysSo) {
   EXPECT_EQ(NumberedName::parse("frame_%05d.png")->at(7), "frame_00007.png");
   EXPECT_EQ(NumberedName::parse("frame_%05d.png")->at(1234567), "frame_1234567.png");

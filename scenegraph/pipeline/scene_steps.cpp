@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scenegraph/pipeline/drawable_slices.h"
 #include "scenegraph/pipeline/gl_target.h"
 #include "scenegraph/pipeline/transparency.h"
 #include "scenegraph/stopwatch.h"
@@ -65,7 +66,7 @@ void SceneSteps::drawPieces(Transparency& blended, osgUtil::RenderBin& bin, osg:
                             osgUtil::RenderLeaf*& previous) {
   seen_ += blended.pieces();
   while (!blended.isDone() && isNext()) {
-    blended.drawPiece(bin, render_info, previous);
+    blended.drawPiece(bin, render_info, previous, waits_);
     countDrawn();
   }
 }
@@ -91,8 +92,17 @@ void SceneSteps::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& re
     return;
   }
   const auto draw = [&](osgUtil::RenderLeaf* leaf) {
-    if (isNext()) {
-      leaf->render(render_info, previous);
+    const std::size_t slices = waits_ ? sliceCount(*leaf->_drawable) : 1;
+    for (std::size_t slice = 0; slice < slices; ++slice) {
+      if (!isNext()) {
+        continue;
+      }
+      if (slices == 1) {
+        leaf->render(render_info, previous);
+      } else {
+        const DrawableSlice alone(*leaf->_drawable, slice);
+        leaf->render(render_info, previous);
+      }
       previous = leaf;
       countDrawn();
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <osg/BlendFunc>
 #include <osg/ColorMask>
 #include <osg/Depth>
@@ -9,6 +10,7 @@
 
 #include "generated/stillframe_render/shaders.h"
 #include "scenegraph/geometry.h"
+#include "scenegraph/pipeline/drawable_slices.h"
 #include "scenegraph/pipeline/full_screen.h"
 #include "scenegraph/pipeline/gl_target.h"
 
@@ -46,6 +48,31 @@ osg::ref_ptr<osg::StateSet> makeLayingOver(int most_sorted) {
   state->setMode(GL_CULL_FACE, kOff);
   state->addUniform(new osg::Uniform{"u_most_sorted", most_sorted}, kWins);
   return state;
+}
+
+/// What is collected at a time; no leaf: the whole bin.
+struct Piece {
+  osgUtil::RenderLeaf* leaf = nullptr;
+  std::optional<std::size_t> slice = {};
+};
+
+std::vector<Piece> piecesOf(const osgUtil::RenderBin& bin, bool slices) {
+  std::vector<Piece> pieces;
+  const auto add = [&](osgUtil::RenderLeaf* leaf) {
+    const std::size_t count = slices ? sliceCount(*leaf->_drawable) : 1;
+    for (std::size_t slice = 0; slice < count; ++slice) {
+      pieces.push_back({leaf, count == 1 ? std::nullopt : std::optional(slice)});
+    }
+  };
+  for (osgUtil::RenderLeaf* const leaf : bin.getRenderLeafList()) {
+    add(leaf);
+  }
+  for (const osgUtil::StateGraph* const graph : bin.getStateGraphList()) {
+    for (const auto& leaf : graph->_leaves) {
+      add(leaf.get());
+    }
+  }
+  return pieces;
 }
 
 }  // namespace
@@ -86,19 +113,15 @@ void Transparency::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& 
   }
 }
 
-void Transparency::drawPiece(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous) {
+void Transparency::drawPiece(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous,
+                             bool slices) {
   if (!is_begun_) {
     start();
   }
   ++pieces_;
-  std::vector<osgUtil::RenderLeaf*> leaves = bin.getRenderLeafList();
-  for (const osgUtil::StateGraph* const graph : bin.getStateGraphList()) {
-    for (const auto& leaf : graph->_leaves) {
-      leaves.push_back(leaf.get());
-    }
-  }
   const bool has_bins = !bin.getRenderBinList().empty();  // of its own: they are drawn with it
-  if (collected_ == (has_bins ? 1 : leaves.size())) {
+  const std::vector<Piece> pieces = has_bins ? std::vector<Piece>{{}} : piecesOf(bin, slices);
+  if (collected_ == pieces.size()) {
     endRows(render_info);
     collected_ = 0;
     return;
@@ -106,14 +129,19 @@ void Transparency::drawPiece(osgUtil::RenderBin& bin, osg::RenderInfo& render_in
   if (collected_ == 0) {
     clearLists();
   }
-  if (has_bins) {
+  const Piece& piece = pieces[collected_++];
+  if (piece.leaf == nullptr) {
     collect(bin, render_info, previous);
+    return;
+  }
+  const osg::ref_ptr<osgUtil::RenderBin> alone = new osgUtil::RenderBin;
+  alone->getRenderLeafList().push_back(piece.leaf);
+  if (piece.slice) {
+    const DrawableSlice cut(*piece.leaf->_drawable, *piece.slice);
+    collect(*alone, render_info, previous);
   } else {
-    const osg::ref_ptr<osgUtil::RenderBin> alone = new osgUtil::RenderBin;
-    alone->getRenderLeafList().push_back(leaves[collected_]);
     collect(*alone, render_info, previous);
   }
-  ++collected_;
 }
 
 void Transparency::start() {

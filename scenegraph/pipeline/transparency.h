@@ -36,9 +36,10 @@ class Transparency : public osgUtil::RenderBin::DrawCallback {
   /// All of it.
   void drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& render_info,
                           osgUtil::RenderLeaf*& previous) override;
-  /// The same in pieces, over several frames: a drawable each, and at last what lays the lists over the picture.
+  /// The same in pieces, over several frames: a drawable each (of large ones, where `slices`, a slice), and at last
+  /// what lays the lists over the picture.
   void begin() noexcept { collected_ = pieces_ = 0, is_begun_ = false; }
-  void drawPiece(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous);
+  void drawPiece(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous, bool slices);
   /// That are drawn since begin().
   [[nodiscard]] std::size_t pieces() const noexcept { return pieces_; }
   [[nodiscard]] bool isDone() const noexcept { return is_begun_ && to_do_.empty(); }
@@ -73,7 +74,7 @@ class Transparency : public osgUtil::RenderBin::DrawCallback {
   int bands_ = 0;
   bool is_begun_ = false;
   std::vector<Rows> to_do_;    // of the picture; the last are being collected
-  std::size_t collected_ = 0;  // drawables of them
+  std::size_t collected_ = 0;  // drawables and slices of them
   std::size_t pieces_ = 0;
   osg::ref_ptr<osg::StateSet> collecting_;
   osg::ref_ptr<osg::Geometry> laying_over_;

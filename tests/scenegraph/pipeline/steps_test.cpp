@@ -11,6 +11,7 @@
 
 #include "scenegraph/blending.h"
 #include "scenegraph/passes/antialiasing.h"
+#include "scenegraph/pipeline/drawable_slices.h"
 #include "scenegraph/pipeline/offscreen_context.h"
 #include "scenegraph/pipeline/view_pipeline.h"
 #include "tests/scenegraph/pipeline/shader_scene.h"
@@ -155,6 +156,59 @@ TEST_F(PictureSteps, PointsOfSubFramesAreAllThere) {
   const Pixels at_once = atOnce();
   EXPECT_GT(inSteps(), 4);
   EXPECT_TRUE(read() == at_once);
+}
+
+/// A wavy sheet of so many triangles, with indices or without.
+osg::ref_ptr<osg::Geode> makeSheet(unsigned triangles, bool has_indices, const osg::Vec4& color) {
+  std::vector<osg::Vec3> corners;
+  for (unsigned i = 0; i < triangles; ++i) {
+    const float x = static_cast<float>(i % 300) / 150.0F - 1.0F;
+    const float y = static_cast<float>(i / 300) / 150.0F - 1.0F;
+    const float z = 0.3F * std::sin(9.0F * x) * std::cos(7.0F * y);
+    corners.insert(corners.end(), {{x, y, z}, {x + 0.02F, y, z}, {x, y + 0.02F, -z}});
+  }
+  const osg::ref_ptr<osg::Geode> sheet = makeShape(GL_TRIANGLES, corners, {color});
+  if (has_indices) {
+    osg::Geometry& geometry = *sheet->getDrawable(0)->asGeometry();
+    const osg::ref_ptr<osg::DrawElementsUInt> indices = new osg::DrawElementsUInt(GL_TRIANGLES);
+    for (unsigned i = 3 * triangles; i > 0; --i) {
+      indices->push_back(i - 1);
+    }
+    geometry.setPrimitiveSet(0, indices);
+  }
+  return sheet;
+}
+
+TEST_F(PictureSteps, AStepEndsWithinALargeDrawable) {
+  constexpr unsigned kTriangles = 70'001;  // three slices
+  root_->addChild(makeQuad(1, 1, -0.5F, {1, 0, 0, 1}));
+  const int without = inSteps();
+  for (const bool has_indices : {false, true}) {
+    for (const bool is_blended : {false, true}) {
+      const osg::ref_ptr<osg::Geode> sheet = makeSheet(kTriangles, has_indices, {0, 1, 0.4F, 0.5F});
+      osg::Geometry& geometry = *sheet->getDrawable(0)->asGeometry();
+      const osg::PrimitiveSet* const set = geometry.getPrimitiveSet(0);
+      setBlended(*sheet->getOrCreateStateSet(), is_blended);
+      root_->addChild(sheet);
+      const Pixels at_once = atOnce();
+      EXPECT_EQ(inSteps(), without + 3 + (is_blended ? 1 : 0)) << has_indices << is_blended;
+      EXPECT_TRUE(read() == at_once) << has_indices << is_blended;
+      EXPECT_EQ(geometry.getNumPrimitiveSets(), 1U);
+      EXPECT_EQ(geometry.getPrimitiveSet(0), set) << "for picking and export it is what it was";
+      root_->removeChild(sheet);
+    }
+  }
+}
+
+TEST_F(PictureSteps, InstancesAndStripsAreDrawnWhole) {
+  const osg::ref_ptr<osg::Geode> sheet = makeSheet(70'001, false, {0, 1, 0.4F, 1});
+  const osg::ref_ptr<osg::PrimitiveSet> set = sheet->getDrawable(0)->asGeometry()->getPrimitiveSet(0);
+  EXPECT_EQ(sliceCount(*sheet->getDrawable(0)), 3U);
+  set->setNumInstances(2);
+  EXPECT_EQ(sliceCount(*sheet->getDrawable(0)), 1U) << "the shader counts them from the first";
+  set->setNumInstances(0);
+  set->setMode(GL_TRIANGLE_STRIP);
+  EXPECT_EQ(sliceCount(*sheet->getDrawable(0)), 1U);
 }
 
 }  // namespace

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <osg/Drawable>
+#include <osg/Geometry>
+#include <osg/ref_ptr>
+
+namespace stillframe::scenegraph {
+
+/// In how many slices a drawable is drawn, one after the other; 1 for most. More where it has more than some ten
+/// thousand triangles, lines or points that are no instances. Together they draw what it draws, in the same order.
+[[nodiscard]] std::size_t sliceCount(const osg::Drawable& drawable);
+
+/// As long as it lives a drawable draws one of its slices alone. Thread of the context only.
+///
+/// Arrays and buffers stay as they are; indices are copied, which costs nothing beside drawing them in software.
+class DrawableSlice {
+ public:
+  DrawableSlice(osg::Drawable& drawable, std::size_t slice);
+  ~DrawableSlice();
+  DrawableSlice(const DrawableSlice&) = delete;
+  DrawableSlice& operator=(const DrawableSlice&) = delete;
+
+ private:
+  osg::ref_ptr<osg::Geometry> geometry_;  // none when it is drawn whole
+  osg::Geometry::PrimitiveSetList whole_;
+};
+
+}  // namespace stillframe::scenegraph

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "scenegraph/geometry.h"
+#include "scenegraph/pipeline/drawable_slices.h"
 #include "scenegraph/pipeline/id_program.h"
 #include "scenegraph/pipeline/id_rays.h"
 
@@ -198,40 +199,68 @@ void IdPass::makeState(const View& view) {
 
 void IdPass::drawGl(const View& view, osg::RenderInfo& info) {
   osg::State& state = *info.getState();
-  const osg::ref_ptr<osg::RefMatrix> projection = new osg::RefMatrix(view.clip_from_eye);
   if (derived_.size() > kMostPrograms) {
     derived_.clear();
   }
-  state.applyProjectionMatrix(projection);
+  state.applyProjectionMatrix(new osg::RefMatrix(view.clip_from_eye));
   std::uint32_t number = 0;
   for (const IdDrawable& one : std::span(drawables_).first(drawnCount())) {
-    auto& drawable = const_cast<osg::Drawable&>(*one.path.back()->asDrawable());
-    const osg::Program* const program = programOf(one.path);
-    const Derived& derived = derive(program);
-    drawable_->set(++number);
-    is_point_->set(hasMode(drawable, {GL_POINTS}));
-    state.pushStateSet(base_);
-    for (const osg::Node* const node : one.path) {
-      if (node->getStateSet() != nullptr) {
-        state.pushStateSet(node->getStateSet());
-      }
-    }
-    state.pushStateSet(derived.state);
-    state.applyModelViewMatrix(new osg::RefMatrix(one.eye_from_local));
-    state.apply();
-    // A text sets the depth mask itself, whatever the state says.
-    auto* const text = dynamic_cast<osgText::Text*>(&drawable);
-    if (text != nullptr && !text->getEnableDepthWrites()) {
-      text->setEnableDepthWrites(true);
-      drawable.draw(info);
-      text->setEnableDepthWrites(false);
-    } else {
-      drawable.draw(info);
-    }
-    state.popStateSetStackToSize(0);
+    drawOne(one, ++number, info);
   }
   state.popAllStateSets();
   state.apply();
+}
+
+void IdPass::drawOne(const IdDrawable& one, std::uint32_t number, osg::RenderInfo& info) {
+  osg::State& state = *info.getState();
+  auto& drawable = const_cast<osg::Drawable&>(*one.path.back()->asDrawable());
+  const Derived& derived = derive(programOf(one.path));
+  drawable_->set(number);
+  is_point_->set(hasMode(drawable, {GL_POINTS}));
+  state.pushStateSet(base_);
+  for (const osg::Node* const node : one.path) {
+    if (node->getStateSet() != nullptr) {
+      state.pushStateSet(node->getStateSet());
+    }
+  }
+  state.pushStateSet(derived.state);
+  state.applyModelViewMatrix(new osg::RefMatrix(one.eye_from_local));
+  state.apply();
+  // A text sets the depth mask itself, whatever the state says.
+  auto* const text = dynamic_cast<osgText::Text*>(&drawable);
+  if (text != nullptr && !text->getEnableDepthWrites()) {
+    text->setEnableDepthWrites(true);
+    drawable.draw(info);
+    text->setEnableDepthWrites(false);
+  } else {
+    drawable.draw(info);
+  }
+  state.popStateSetStackToSize(0);
+}
+
+bool IdPass::warm(osg::Group& root, const View& view, osg::RenderInfo& info, bool with_points) {
+  View all = view;
+  all.reach_px = std::max(view.width_px, view.height_px);
+  collect(root, all, with_points);
+  const auto drawn = std::span(drawables_).first(drawnCount());
+  const auto cold =
+      std::ranges::find_if(drawn, [this](const IdDrawable& one) { return !derived_.contains(programOf(one.path)); });
+  if (cold == drawn.end() || derived_.size() >= kMostPrograms) {
+    return false;
+  }
+  makeState(view);
+  if (!target_.begin(2 * view.reach_px + 1)) {
+    return false;
+  }
+  osg::State& state = *info.getState();
+  state.applyProjectionMatrix(new osg::RefMatrix(view.clip_from_eye));
+  {
+    const DrawableSlice few(const_cast<osg::Drawable&>(*cold->path.back()->asDrawable()), 0);
+    drawOne(*cold, 1, info);
+  }
+  state.popAllStateSets();
+  state.apply();
+  return true;
 }
 
 std::optional<std::vector<IdSample>> IdPass::draw(osg::Group& root, const View& view, osg::RenderInfo& info,

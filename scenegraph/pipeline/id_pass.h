@@ -61,6 +61,9 @@ class IdPass {
   };
   [[nodiscard]] std::optional<std::vector<IdSample>> draw(osg::Group& root, const View& view, osg::RenderInfo& info,
                                                           const std::optional<CpuPoints>& points);
+  /// Draws one thing in sight whose shaders draw() would have to make, so that it finds them. Returns whether there was
+  /// one; `with_points` as with draw().
+  [[nodiscard]] bool warm(osg::Group& root, const View& view, osg::RenderInfo& info, bool with_points);
   /// Of the last draw(); the paths are good until the graph changes.
   [[nodiscard]] const std::vector<IdDrawable>& drawables() const noexcept { return drawables_; }
 
@@ -74,6 +77,7 @@ class IdPass {
   void castRays(const View& view, std::size_t first, std::vector<gl::IdTarget::Id>& ids,
                 std::vector<float>& depths) const;
   void drawGl(const View& view, osg::RenderInfo& info);
+  void drawOne(const IdDrawable& one, std::uint32_t number, osg::RenderInfo& info);
   void makeState(const View& view);
   struct Derived {
     osg::ref_ptr<const osg::Program> of;  // held, so that its address names it

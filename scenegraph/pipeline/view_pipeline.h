@@ -89,6 +89,9 @@ class ViewPipeline {
   /// nothing, outside of the picture, and before the first render. Leaves another framebuffer bound.
   [[nodiscard]] std::vector<PickHit> pick(int x_px, int y_px, int reach_px = kPickReachPx);
   static constexpr int kPickReachPx = 8;
+  /// Makes the shaders that pick() needs for one of the things in sight. Returns whether any were missing: call it
+  /// until there are none, an event each, and no pick takes long for its shaders. Leaves another framebuffer bound.
+  [[nodiscard]] bool warmPick();
   /// Whether pick() has made its target yet.
   [[nodiscard]] bool hasPickTarget() const noexcept;
 

@@ -68,6 +68,8 @@ struct ViewPipeline::Impl {
     const bool has_rows = stages && first >= 0 && rows > 0 && rows <= height_px - first;
     return has_rows ? reader(textureId(target), {width_px, first, rows}) : std::vector<float>{};
   }
+  [[nodiscard]] osg::RenderInfo startPick();
+  [[nodiscard]] IdPass::View idView(int x_px, int y_px, int reach_px) const;
   std::expected<void, Status> checkTargets() const;
   std::expected<bool, Status> makeReady(int width, int height, bool present);
   void startPicture(std::uint32_t output_fbo);

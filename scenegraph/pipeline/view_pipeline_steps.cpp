@@ -97,6 +97,38 @@ void ViewPipeline::present(std::uint32_t output_fbo) {
   impl.namePasses();
 }
 
+osg::RenderInfo ViewPipeline::Impl::startPick() {
+  adoptGlState();
+  if (BufferPatches* const patches = BufferPatches::find(*root)) {
+    patches->upload(contextId());
+  }
+  if (id_pass == nullptr) {
+    id_pass = std::make_unique<IdPass>();
+  }
+  return {window->getState(), viewer};
+}
+
+IdPass::View ViewPipeline::Impl::idView(int x_px, int y_px, int reach_px) const {
+  return {.eye_from_fixed = toOsg(view.eye_from_fixed),
+          .clip_from_eye = toOsg(projection_matrix),
+          .width_px = width_px,
+          .height_px = height_px,
+          .x_px = x_px,
+          .y_px = height_px - 1 - y_px,
+          .reach_px = reach_px};
+}
+
+bool ViewPipeline::warmPick() {
+  Impl& impl = *impl_;
+  if (!impl.stages || impl.passes.empty()) {
+    return false;
+  }
+  osg::RenderInfo info = impl.startPick();
+  const bool with_points = !impl.point_progress || impl.stage_way != PointWay::Cpu;
+  return impl.id_pass->warm(*impl.root, impl.idView(impl.width_px / 2, impl.height_px / 2, kPickReachPx), info,
+                            with_points);
+}
+
 std::vector<PickHit> ViewPipeline::pick(int x_px, int y_px, int reach_px) {
   Impl& impl = *impl_;
   const bool is_inside = x_px >= 0 && y_px >= 0 && x_px < impl.width_px && y_px < impl.height_px;
@@ -111,24 +143,8 @@ std::vector<PickHit> ViewPipeline::pick(int x_px, int y_px, int reach_px) {
     points = collectPoints(*impl.root, eye_from_fixed, clip_from_eye, impl.height_px);
     cpu_points.emplace(impl.point_stage->keys(points, impl.width_px, impl.height_px), points);
   }
-  impl.adoptGlState();
-  if (BufferPatches* const patches = BufferPatches::find(*impl.root)) {
-    patches->upload(impl.contextId());
-  }
-  if (impl.id_pass == nullptr) {
-    impl.id_pass = std::make_unique<IdPass>();
-  }
-  osg::RenderInfo info(impl.window->getState(), impl.viewer);
-  const int row_from_below = impl.height_px - 1 - y_px;
-  const auto samples = impl.id_pass->draw(*impl.root,
-                                          {.eye_from_fixed = eye_from_fixed,
-                                           .clip_from_eye = clip_from_eye,
-                                           .width_px = impl.width_px,
-                                           .height_px = impl.height_px,
-                                           .x_px = x_px,
-                                           .y_px = row_from_below,
-                                           .reach_px = reach_px},
-                                          info, cpu_points);
+  osg::RenderInfo info = impl.startPick();
+  const auto samples = impl.id_pass->draw(*impl.root, impl.idView(x_px, y_px, reach_px), info, cpu_points);
   const auto ordered = inOrderOfMeaning(samples.value_or(std::vector<IdSample>{}), impl.id_pass->drawables());
   return toHits(ordered, impl.id_pass->drawables(), impl.view, impl.width_px, impl.height_px, x_px, y_px);
 }

@@ -6,6 +6,7 @@
 #include <QTest>
 #include <QToolButton>
 #include <QTreeWidget>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -72,6 +73,22 @@ TEST_F(WidgetPickTest, HoverSaysWhatIsThereAndDrawsNoFrame) {
   hover({3, 3});
   EXPECT_TRUE(waitFor([&] { return label->thing().isEmpty(); }));  // at once, or when the cursor rests
   EXPECT_TRUE(label->isHidden());
+}
+
+TEST_F(WidgetPickTest, ClicksWaitForShadersAndAreAnsweredInTheirOrder) {
+  QTest::mouseClick(&widget_, Qt::LeftButton, {}, at(-0.5, 0.0).toPoint());
+  EXPECT_FALSE(selected()) << "an event makes the shaders of one thing";
+  QTest::mouseClick(&widget_, Qt::LeftButton, Qt::ShiftModifier, at(0.5, 0.5).toPoint());
+  ASSERT_TRUE(waitFor([&] { return !widget_.picks().measured().empty(); }));
+  EXPECT_EQ(widget_.picks().measured().size(), 1U);
+  ASSERT_TRUE(selected());
+  EXPECT_LT(glm::distance(selected()->picked.point_in_frame, glm::dvec3(0.5, 0.5, 0.0)), 0.2) << "the second one";
+  const auto length = scenegraph::measureNow(*widget_.scene(), widget_.picks().measured().front());
+  ASSERT_TRUE(length);
+  EXPECT_NEAR(length->length_m, std::hypot(1.0, 0.5), 0.4) << "from the first";
+  EXPECT_FALSE(widget_.warmPick()) << "there is nothing left to make";
+  QTest::mouseClick(&widget_, Qt::LeftButton, {}, at(-0.5, 0.0).toPoint());
+  EXPECT_LT(glm::distance(selected()->picked.point_in_frame, glm::dvec3(-0.5, 0.0, 0.0)), 0.2) << "at once";
 }
 
 TEST_F(WidgetPickTest, ADragPicksNothing) {

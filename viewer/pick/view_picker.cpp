@@ -30,11 +30,11 @@ QString lineOf(const scenegraph::PickResult& result) {
 
 ViewPicker::ViewPicker(SceneWidget& view)
     : QObject(&view), view_(view), picks_(new ViewPicks(&view)), label_(new HoverLabel(&view)), gate_([this] {
-        hoverThing();
+        answer();
       }) {
   rest_.setSingleShot(true);
   rest_.setInterval(kRestMs);
-  connect(&rest_, &QTimer::timeout, this, &ViewPicker::hoverThing);
+  connect(&rest_, &QTimer::timeout, this, &ViewPicker::answer);
   connect(picks_, &ViewPicks::changed, this, &ViewPicker::onPicksChanged);
 }
 
@@ -91,7 +91,39 @@ void ViewPicker::release(QPointF position, bool measures) {
   if (!(std::hypot(moved.x(), moved.y()) <= kStill)) {
     return;
   }
-  pickAt(position, measures);
+  ask({.position = position, .measures = measures});
+}
+
+void ViewPicker::ask(const Click& click) {
+  clicks_.push_back(click);
+  answer();
+}
+
+/// Of clicks, or of the cursor where none waits.
+void ViewPicker::answer() {
+  if (!clicks_.empty() || (cursor_ && view_.isVisible())) {
+    if (view_.warmPick()) {
+      gate_.request();
+      return;
+    }
+  }
+  if (clicks_.empty()) {
+    hoverThing();
+    return;
+  }
+  for (; !clicks_.empty();) {
+    const Click click = clicks_.front();
+    clicks_.pop_front();
+    answerClick(click);
+  }
+}
+
+void ViewPicker::answerClick(const Click& click) {
+  const bool is_hit = pickAt(click.position, click.measures);
+  if (click.is_by_keys) {
+    label_->setThing(is_hit ? lineOf(*picks_->selected()) : tr("nothing in the middle of the view"));
+    label_->showAt(click.position);
+  }
 }
 
 /// Returns whether there is something.
@@ -112,8 +144,7 @@ void ViewPicker::pickMiddle(bool measures) {
   const QPointF middle = QRectF(view_.rect()).center();
   label_->clearAll();
   cursor_.reset();
-  label_->setThing(pickAt(middle, measures) ? lineOf(*picks_->selected()) : tr("nothing in the middle of the view"));
-  label_->showAt(middle);
+  ask({.position = middle, .measures = measures, .is_by_keys = true});
 }
 
 void ViewPicker::leave() {
@@ -126,6 +157,7 @@ void ViewPicker::leave() {
 void ViewPicker::clear() {
   label_->clearAll();
   picks_->clear();
+  clicks_.clear();
   last_ms_ = 0.0;
 }
 

@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QPointF>
 #include <QTimer>
+#include <deque>
 #include <optional>
 
 #include "viewer/widget/update_gate.h"
@@ -16,7 +17,8 @@ class ViewPicks;
 /// What the mouse picks in one view: says what is under the cursor, selects what is clicked, measures with Shift.
 ///
 /// Frames are named at once. The thing under the cursor is looked for when the event loop comes to it, for the latest
-/// place alone; where that has taken long (software OpenGL, millions of voxels), when the cursor rests. GUI thread.
+/// place alone; where that has taken long (software OpenGL, millions of voxels), when the cursor rests. Shaders for it
+/// are made an event each; clicks wait for them, and are answered one after the other. GUI thread.
 class ViewPicker : public QObject {
   Q_OBJECT
 
@@ -38,6 +40,14 @@ class ViewPicker : public QObject {
   void place();
 
  private:
+  struct Click {
+    QPointF position;
+    bool measures = false;
+    bool is_by_keys = false;  // in the middle: the answer is said there
+  };
+  void ask(const Click& click);
+  void answer();
+  void answerClick(const Click& click);
   void hoverThing();
   bool pickAt(QPointF position, bool measures);
   void onPicksChanged();
@@ -48,7 +58,8 @@ class ViewPicker : public QObject {
   QString frame_;                  // hovered
   std::optional<QPointF> cursor_;  // over the view, no button down
   QPointF pressed_;
-  double last_ms_ = 0.0;  // that looking for the thing took
+  std::deque<Click> clicks_;  // that wait for their answers, in order
+  double last_ms_ = 0.0;      // that looking for the thing took
   QTimer rest_;
   UpdateGate gate_;
 };

@@ -82,6 +82,7 @@ class SceneWidget : public QOpenGLWidget {
   std::expected<scenegraph::PickResult, scenegraph::PickError> pick(QPointF position);
   /// What clicks have picked and measured; what is picked is the selection.
   [[nodiscard]] ViewPicks& picks() noexcept;
+  bool warmPick();  ///< ViewPipeline::warmPick(), where OpenGL is software
   [[nodiscard]] const std::vector<scenegraph::SavedView>& savedViews() const noexcept { return saved_views_; }
   void setSavedViews(std::vector<scenegraph::SavedView> views);
   /// Saves what is shown; a view of that name is replaced, without a name it becomes "View 1", "View 2", ...

@@ -25,4 +25,14 @@ std::expected<scenegraph::PickResult, scenegraph::PickError> SceneWidget::pick(Q
   return result;
 }
 
+bool SceneWidget::warmPick() {
+  if (!is_software_ || scene_ == nullptr || pipeline_ == nullptr || !is_context_usable_ || isLent()) {
+    return false;
+  }
+  makeCurrent();
+  const bool was_cold = pipeline_->warmPick();
+  doneCurrent();
+  return was_cold;
+}
+
 }  // namespace stillframe::viewer

@@ -307,8 +307,7 @@ void InspectorWindow::takeScreenshotWhenComplete() {
     connect(&panel->view(), &QOpenGLWidget::frameSwapped, this, &InspectorWindow::takeScreenshotWhenComplete,
             static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::UniqueConnection));
   }
-  if (!isComplete() ||
-      !std::ranges::all_of(views(), [](ViewPanel* panel) { return panel->view().isUpToDate(); })) {
+  if (!isComplete() || !std::ranges::all_of(views(), [](ViewPanel* panel) { return panel->view().isUpToDate(); })) {
     return;
   }
   const QPixmap picture = grab();  // draws the views once more

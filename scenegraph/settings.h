@@ -102,7 +102,6 @@ class SettingsTable {
   template <typename Other>
   friend class SettingsTable;
   [[nodiscard]] const Row* find(const std::string& key) const;
-  [[nodiscard]] std::expected<void, SettingError> checkOrder(const S& settings) const;
   // Not inlined: GCC 12 would warn (-Warray-bounds) of member types that S does not have.
   [[gnu::noinline]] static void assign(S& settings, const Member& member, const SettingValue& value);
 
@@ -166,21 +165,6 @@ auto SettingsTable<S>::find(const std::string& key) const -> const Row* {
 }
 
 template <typename S>
-std::expected<void, SettingError> SettingsTable<S>::checkOrder(const S& settings) const {
-  for (const Row& high : rows_) {
-    const Row* const low = high.spec.not_below.empty() ? nullptr : find(high.spec.not_below);
-    if (low == nullptr) {
-      continue;
-    }
-    const double low_value = settings.*std::get<double S::*>(low->member);
-    if (const double value = settings.*std::get<double S::*>(high.member); value < low_value) {
-      return wrongOrder(high.spec, value, low->spec, low_value);
-    }
-  }
-  return {};
-}
-
-template <typename S>
 std::expected<void, SettingError> SettingsTable<S>::apply(const SettingTexts& texts, S& settings) const {
   S changed = settings;
   for (const auto& [key, text] : texts) {
@@ -198,8 +182,13 @@ std::expected<void, SettingError> SettingsTable<S>::apply(const SettingTexts& te
     }
     assign(changed, found->member, *value);
   }
-  if (auto ordered = checkOrder(changed); !ordered) {
-    return ordered;
+  for (const Row& high : rows_) {
+    if (const Row* const low = find(high.spec.not_below)) {
+      const double least = changed.*std::get<double S::*>(low->member);
+      if (const double value = changed.*std::get<double S::*>(high.member); value < least) {
+        return wrongOrder(high.spec, value, low->spec, least);
+      }
+    }
   }
   settings = std::move(changed);
   return {};

@@ -206,19 +206,6 @@ TEST_P(LayerContract, HidesWhenItsFrameHasNoPlaceAndSaysWhy) {
   EXPECT_TRUE(drawsSomething(*scene));
 }
 
-/// The other end of a pair of settings, where neither value of `spec` passes it.
-SettingTexts outOfTheWay(const SettingSpec& spec, const std::vector<SettingSpec>& specs) {
-  SettingTexts texts;
-  for (const SettingSpec& other : specs) {
-    if (other.not_below == spec.key) {
-      texts[other.key] = scenegraph::settingText(other.maximum);
-    } else if (spec.not_below == other.key) {
-      texts[other.key] = scenegraph::settingText(other.minimum);
-    }
-  }
-  return texts;
-}
-
 TEST_P(LayerContract, TakesEverySettingItAnnouncesAndRefusesOthers) {
   const auto scene = makeScene(*at_once);
   scene->update({15_s});

@@ -41,6 +41,20 @@ inline std::vector<std::string> goodTexts(const scenegraph::SettingSpec& spec) {
   return texts;
 }
 
+/// The other end of a pair of settings, where neither value of `spec` passes it.
+inline scenegraph::SettingTexts outOfTheWay(const scenegraph::SettingSpec& spec,
+                                            const std::vector<scenegraph::SettingSpec>& specs) {
+  scenegraph::SettingTexts texts;
+  for (const scenegraph::SettingSpec& other : specs) {
+    if (other.not_below == spec.key) {
+      texts[other.key] = scenegraph::settingText(other.maximum);
+    } else if (spec.not_below == other.key) {
+      texts[other.key] = scenegraph::settingText(other.minimum);
+    }
+  }
+  return texts;
+}
+
 /// Texts that `spec` must refuse.
 inline std::vector<std::string> badTexts(const scenegraph::SettingSpec& spec) {
   std::vector<std::string> texts;

@@ -92,6 +92,19 @@ TEST_F(SceneDockTest, RestoredDockIsTheSavedOneToThePixelAndToTheByte) {
   EXPECT_GT(test::drawnPixels(pictureOf(*second)), 100);
 }
 
+TEST_F(SceneDockTest, CommentsOfTheHostsLayoutSurvive) {
+  const auto first = makeDock(robot_);
+  QString text = saved(*first);
+  text.replace(QStringLiteral("<Camera"), QStringLiteral("<!-- from above --><Camera"));
+  const auto second = makeDock(robot_);
+  ASSERT_TRUE(restore(*second, text));
+  const QString once = saved(*second);
+  EXPECT_TRUE(once.contains(QStringLiteral("<!-- from above -->")));
+  EXPECT_LT(once.indexOf(QStringLiteral("<!-- from above -->")), once.indexOf(QStringLiteral("<Camera")));
+  ASSERT_TRUE(restore(*first, once));
+  EXPECT_EQ(saved(*first), once);
+}
+
 TEST_F(SceneDockTest, LayoutRestoredBeforeTheDataIsKeptAndTakenUp) {
   const auto first = makeDock(robot_);
   change(*first);

@@ -6,7 +6,6 @@
 
 #include "scenegraph/pipeline/drawable_slices.h"
 #include "scenegraph/pipeline/gl_target.h"
-#include "scenegraph/pipeline/transparency.h"
 #include "scenegraph/stopwatch.h"
 
 namespace stillframe::scenegraph {

@@ -9,17 +9,17 @@
 #include <osgUtil/RenderBin>
 #include <vector>
 
-namespace stillframe::scenegraph {
+#include "scenegraph/pipeline/transparency.h"
 
-class Transparency;
+namespace stillframe::scenegraph {
 
 /// Draws the scene pass in several goes, each as long as a budget, what was drawn before being left out.
 ///
 /// A go ends with the drawable that uses its budget up, and before one that would, by what it took in the last picture:
 /// it lasts as long as the budget, or as the one drawable that takes longer; where OpenGL is waited for, a large one
-/// counts as several (DrawableSlice). The
-/// scene is culled in each; as long as nothing changes in it meanwhile, all goes together draw what one would have
-/// drawn, in the same order. What is blended is drawn in pieces of its own (Transparency). Thread of the context only.
+/// counts as several (DrawableSlice). The scene is culled in each; as long as nothing changes in it meanwhile, all goes
+/// together draw what one would have drawn, in the same order. What is blended is drawn in pieces of its own
+/// (Transparency). Thread of the context only.
 // NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): OSG counts references
 class SceneSteps : public osgUtil::RenderBin::DrawCallback {
  public:

@@ -162,8 +162,9 @@ void ViewPipeline::Impl::drawPoints(double sub_frame_budget_ms) {
     } else if (isPaced()) {
       constexpr double kLeast = 0.25;    // of the budget: the picture of the points must come to an end
       constexpr double kUnknown = 0.75;  // of it, in a first frame, which makes shaders and textures
+      constexpr double kAim = 0.9;       // at less than all of it: a core may be busy when the frame is half drawn
       const double rest = rest_ms.value_or(kUnknown * limits.budget_ms);
-      limits.budget_ms = std::max(limits.budget_ms - rest, kLeast * limits.budget_ms);
+      limits.budget_ms = std::max(kAim * limits.budget_ms - rest, kLeast * limits.budget_ms);
     }
     point_progress = point_stage->draw(std::move(points), width_px, height_px, limits);
   }

@@ -5,21 +5,13 @@
 
 #include "nodes/images/color_image.h"
 #include "nodes/images/depth_map.h"
+#include "nodes/own_buffer.h"
 
 namespace stillframe::nodes {
 namespace {
 
 using scenegraph::Status;
 using scenegraph::StatusLevel;
-
-/// An array with a buffer of its own: OSG would put all arrays of a geometry into one, and upload all when one changes.
-template <typename Array>
-osg::ref_ptr<Array> makeArray(std::size_t size) {
-  osg::ref_ptr<Array> array = new Array(osg::Array::BIND_PER_VERTEX);
-  array->asVector().resize(size);  // OSG's own copies a zero from the stack to each, which stalls a dozen cycles
-  array->setVertexBufferObject(new osg::VertexBufferObject);
-  return array;
-}
 
 template <typename Array, typename T>
 osg::ref_ptr<Array> arrayOf(const std::vector<T>& values) {

@@ -8,6 +8,7 @@
 #include <osg/Image>
 
 #include "generated/stillframe_nodes/shaders.h"
+#include "nodes/own_buffer.h"
 #include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
 #include "scenegraph/known_bound.h"
@@ -21,12 +22,11 @@ constexpr unsigned kUvAttribute = 7;  // the shader's a_uv
 template <typename Array, typename T>
 osg::ref_ptr<Array> copyOf(std::span<const T> from, bool is_normalized = false) {
   static_assert(sizeof(T) == sizeof(typename Array::ElementDataType));
-  osg::ref_ptr<Array> array = new Array(osg::Array::BIND_PER_VERTEX, static_cast<unsigned>(from.size()));
+  auto array = makeArray<Array>(from.size());
   if (!from.empty()) {
     std::memcpy(static_cast<void*>(array->asVector().data()), from.data(), from.size_bytes());
   }
   array->setNormalize(is_normalized);
-  array->setVertexBufferObject(new osg::VertexBufferObject);
   return array;
 }
 

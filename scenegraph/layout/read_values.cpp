@@ -131,10 +131,6 @@ void keepUnknown(XmlElement& fresh, const XmlElement& source, std::span<const Kn
       comments.emplace_back(place, std::move(comment));
     }
   }
-  if (comments.empty()) {
-    std::ranges::move(waiting, std::back_inserter(fresh.children));
-    return;
-  }
   std::ranges::stable_sort(comments, {}, [](const auto& comment) { return comment.first; });
   std::vector<XmlElement> merged;
   auto comment = comments.begin();

@@ -3,8 +3,10 @@
 #include <expat.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <memory>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -64,13 +66,21 @@ class Reader {
     XML_StopParser(parser_.get(), XML_FALSE);
   }
 
+  /// Counts one more element or comment.
+  [[nodiscard]] bool isTooMany() {
+    if (++elements_ <= limits_.elements) {
+      return false;
+    }
+    stop("more than " + std::to_string(limits_.elements) + " elements");
+    return true;
+  }
+
   void begin(const XML_Char* name, const XML_Char** attributes) {
     if (open_.size() >= limits_.depth) {
       stop("more than " + std::to_string(limits_.depth) + " elements within each other");
       return;
     }
-    if (++elements_ > limits_.elements) {
-      stop("more than " + std::to_string(limits_.elements) + " elements");
+    if (isTooMany()) {
       return;
     }
     XmlElement element{name, {}, {}, std::exchange(before_, {})};
@@ -94,8 +104,7 @@ class Reader {
   }
 
   void addComment(const XML_Char* text) {
-    if (++elements_ > limits_.elements) {
-      stop("more than " + std::to_string(limits_.elements) + " elements");
+    if (isTooMany()) {
       return;
     }
     const bool is_before = open_.empty() && root_.name.empty();
@@ -125,6 +134,9 @@ class Reader {
   std::string why_;  // of a stop of ours
 };
 
+/// A comment of the file, not of what is within its root.
+bool isOutside(const XmlElement& element) { return element.name == kCommentBefore || element.name == kCommentAfter; }
+
 /// `indent` is negative where space would be text.
 void writeElement(const XmlElement& element, int indent, std::string& out) {  // as deep as the limit of parseXml()
   if (element.name.empty()) {
@@ -149,14 +161,15 @@ void writeElement(const XmlElement& element, int indent, std::string& out) {  //
     appendXmlAttribute(value, out);
     out += "\"";
   }
-  if (element.children.empty()) {
+  auto children = element.children | std::views::filter(std::not_fn(isOutside));
+  if (children.empty()) {
     out += "/>";
     return;
   }
   out += ">";
   const bool has_text = std::ranges::any_of(element.children, [](const auto& of) { return of.name.empty(); });
   const int inner = indent < 0 || has_text ? -1 : indent + 1;
-  for (const XmlElement& child : element.children) {
+  for (const XmlElement& child : children) {
     newLine(inner);
     writeElement(child, inner, out);
   }
@@ -186,19 +199,19 @@ std::expected<XmlElement, Status> parseXml(std::string_view text, const XmlLimit
 
 std::string writeXml(const XmlElement& root) {
   std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-  std::string after;
-  XmlElement inner = root;
-  std::erase_if(inner.children, [&](const XmlElement& child) {
-    const bool is_outside = child.name == kCommentBefore || child.name == kCommentAfter;
-    if (is_outside) {
-      std::string& text = child.name == kCommentBefore ? out : after;
-      writeElement(child, 0, text);
-      text += "\n";
+  const auto writeComments = [&](std::string_view name) {
+    for (const XmlElement& child : root.children) {
+      if (child.name == name) {
+        writeElement(child, 0, out);
+        out += "\n";
+      }
     }
-    return is_outside;
-  });
-  writeElement(inner, 0, out);
-  return out + "\n" + after;
+  };
+  writeComments(kCommentBefore);
+  writeElement(root, 0, out);
+  out += "\n";
+  writeComments(kCommentAfter);
+  return out;
 }
 
 }  // namespace stillframe::scenegraph

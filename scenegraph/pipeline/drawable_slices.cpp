@@ -1,7 +1,6 @@
 #include "scenegraph/pipeline/drawable_slices.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace stillframe::scenegraph {
 namespace {
@@ -57,12 +56,12 @@ std::size_t sliceCount(const osg::Drawable& drawable) {
   return slicesOf(*geometry->getPrimitiveSet(0)).value_or(1);
 }
 
-DrawableSlice::DrawableSlice(osg::Drawable& drawable, std::size_t slice) {
-  if (sliceCount(drawable) > 1) {
+DrawableSlice::DrawableSlice(osg::Drawable& drawable, std::optional<std::size_t> slice) {
+  if (slice && sliceCount(drawable) > 1) {
     geometry_ = drawable.asGeometry();
     osg::Geometry::PrimitiveSetList& sets = geometry_->getPrimitiveSetList();
     whole_ = sets;
-    sets = {cut(*whole_.front(), slice)};
+    sets = {cut(*whole_.front(), *slice)};
   }
 }
 

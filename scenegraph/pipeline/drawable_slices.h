@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <osg/Drawable>
 #include <osg/Geometry>
 #include <osg/ref_ptr>
@@ -11,12 +12,13 @@ namespace stillframe::scenegraph {
 /// thousand triangles, lines or points that are no instances. Together they draw what it draws, in the same order.
 [[nodiscard]] std::size_t sliceCount(const osg::Drawable& drawable);
 
-/// As long as it lives a drawable draws one of its slices alone. Thread of the context only.
+/// As long as it lives a drawable draws one of its slices alone; all of it where none is named. Thread of the context
+/// only.
 ///
 /// Arrays and buffers stay as they are; indices are copied, which costs nothing beside drawing them in software.
 class DrawableSlice {
  public:
-  DrawableSlice(osg::Drawable& drawable, std::size_t slice);
+  DrawableSlice(osg::Drawable& drawable, std::optional<std::size_t> slice);
   ~DrawableSlice();
   DrawableSlice(const DrawableSlice&) = delete;
   DrawableSlice& operator=(const DrawableSlice&) = delete;

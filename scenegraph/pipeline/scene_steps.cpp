@@ -64,8 +64,9 @@ void SceneSteps::countDrawn() {
 void SceneSteps::drawPieces(Transparency& blended, osgUtil::RenderBin& bin, osg::RenderInfo& render_info,
                             osgUtil::RenderLeaf*& previous) {
   seen_ += blended.pieces();
+  const auto pieces = Transparency::piecesOf(bin, waits_);
   while (!blended.isDone() && isNext()) {
-    blended.drawPiece(bin, render_info, previous, waits_);
+    blended.drawPiece(bin, pieces, render_info, previous);
     countDrawn();
   }
 }
@@ -96,12 +97,8 @@ void SceneSteps::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& re
       if (!isNext()) {
         continue;
       }
-      if (slices == 1) {
-        leaf->render(render_info, previous);
-      } else {
-        const DrawableSlice alone(*leaf->_drawable, slice);
-        leaf->render(render_info, previous);
-      }
+      const DrawableSlice alone(*leaf->_drawable, slices == 1 ? std::nullopt : std::optional(slice));
+      leaf->render(render_info, previous);
       previous = leaf;
       countDrawn();
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <optional>
 #include <osg/BlendFunc>
 #include <osg/ColorMask>
 #include <osg/Depth>
@@ -50,31 +49,6 @@ osg::ref_ptr<osg::StateSet> makeLayingOver(int most_sorted) {
   return state;
 }
 
-/// What is collected at a time; no leaf: the whole bin.
-struct Piece {
-  osgUtil::RenderLeaf* leaf = nullptr;
-  std::optional<std::size_t> slice = {};
-};
-
-std::vector<Piece> piecesOf(const osgUtil::RenderBin& bin, bool slices) {
-  std::vector<Piece> pieces;
-  const auto add = [&](osgUtil::RenderLeaf* leaf) {
-    const std::size_t count = slices ? sliceCount(*leaf->_drawable) : 1;
-    for (std::size_t slice = 0; slice < count; ++slice) {
-      pieces.push_back({leaf, count == 1 ? std::nullopt : std::optional(slice)});
-    }
-  };
-  for (osgUtil::RenderLeaf* const leaf : bin.getRenderLeafList()) {
-    add(leaf);
-  }
-  for (const osgUtil::StateGraph* const graph : bin.getStateGraphList()) {
-    for (const auto& leaf : graph->_leaves) {
-      add(leaf.get());
-    }
-  }
-  return pieces;
-}
-
 }  // namespace
 
 Transparency::Transparency(int width_px, int height_px, int samples, const osg::ref_ptr<osg::Texture>& depths,
@@ -113,14 +87,34 @@ void Transparency::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& 
   }
 }
 
-void Transparency::drawPiece(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous,
-                             bool slices) {
+std::vector<Transparency::Piece> Transparency::piecesOf(const osgUtil::RenderBin& bin, bool slices) {
+  if (!bin.getRenderBinList().empty()) {  // of its own: they are drawn with it
+    return {{}};
+  }
+  std::vector<Piece> pieces;
+  const auto add = [&](osgUtil::RenderLeaf* leaf) {
+    const std::size_t count = slices ? sliceCount(*leaf->_drawable) : 1;
+    for (std::size_t slice = 0; slice < count; ++slice) {
+      pieces.push_back({leaf, count == 1 ? std::nullopt : std::optional(slice)});
+    }
+  };
+  for (osgUtil::RenderLeaf* const leaf : bin.getRenderLeafList()) {
+    add(leaf);
+  }
+  for (const osgUtil::StateGraph* const graph : bin.getStateGraphList()) {
+    for (const auto& leaf : graph->_leaves) {
+      add(leaf.get());
+    }
+  }
+  return pieces;
+}
+
+void Transparency::drawPiece(osgUtil::RenderBin& bin, std::span<const Piece> pieces, osg::RenderInfo& render_info,
+                             osgUtil::RenderLeaf*& previous) {
   if (!is_begun_) {
     start();
   }
   ++pieces_;
-  const bool has_bins = !bin.getRenderBinList().empty();  // of its own: they are drawn with it
-  const std::vector<Piece> pieces = has_bins ? std::vector<Piece>{{}} : piecesOf(bin, slices);
   if (collected_ == pieces.size()) {
     endRows(render_info);
     collected_ = 0;
@@ -136,12 +130,8 @@ void Transparency::drawPiece(osgUtil::RenderBin& bin, osg::RenderInfo& render_in
   }
   const osg::ref_ptr<osgUtil::RenderBin> alone = new osgUtil::RenderBin;
   alone->getRenderLeafList().push_back(piece.leaf);
-  if (piece.slice) {
-    const DrawableSlice cut(*piece.leaf->_drawable, *piece.slice);
-    collect(*alone, render_info, previous);
-  } else {
-    collect(*alone, render_info, previous);
-  }
+  const DrawableSlice slice(*piece.leaf->_drawable, piece.slice);
+  collect(*alone, render_info, previous);
 }
 
 void Transparency::start() {

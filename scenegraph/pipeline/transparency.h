@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <osg/Geometry>
 #include <osg/StateSet>
 #include <osg/Texture>
 #include <osg/ref_ptr>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderBin>
+#include <span>
 #include <vector>
 
 #include "scenegraph/pipeline/blend_limits.h"
@@ -36,10 +38,17 @@ class Transparency : public osgUtil::RenderBin::DrawCallback {
   /// All of it.
   void drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& render_info,
                           osgUtil::RenderLeaf*& previous) override;
-  /// The same in pieces, over several frames: a drawable each (of large ones, where `slices`, a slice), and at last
-  /// what lays the lists over the picture.
+  /// What is collected at a time; no leaf: the whole bin.
+  struct Piece {
+    osgUtil::RenderLeaf* leaf = nullptr;
+    std::optional<std::size_t> slice = {};
+  };
+  /// Those of a bin: a drawable each, of large ones, where `slices`, a slice. Good as long as the bin.
+  [[nodiscard]] static std::vector<Piece> piecesOf(const osgUtil::RenderBin& bin, bool slices);
+  /// All of it in pieces, over several frames, and at last what lays the lists over the picture.
   void begin() noexcept { collected_ = pieces_ = 0, is_begun_ = false; }
-  void drawPiece(osgUtil::RenderBin& bin, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous, bool slices);
+  void drawPiece(osgUtil::RenderBin& bin, std::span<const Piece> pieces, osg::RenderInfo& render_info,
+                 osgUtil::RenderLeaf*& previous);
   /// That are drawn since begin().
   [[nodiscard]] std::size_t pieces() const noexcept { return pieces_; }
   [[nodiscard]] bool isDone() const noexcept { return is_begun_ && to_do_.empty(); }

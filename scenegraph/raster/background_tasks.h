@@ -14,7 +14,7 @@ namespace stillframe::scenegraph {
 /// than a millisecond. For workers; returns when all are done. A worker that stands back does them all by itself.
 template <typename Task>
 void runInBackground(std::size_t count, const Task& task) {
-  if (count == 1 || standsBack()) {
+  if (count <= 1 || standsBack()) {
     for (std::size_t number = 0; number < count; ++number) {
       task(number);
     }

@@ -101,17 +101,15 @@ void ViewPicker::ask(const Click& click) {
 
 /// Of clicks, or of the cursor where none waits.
 void ViewPicker::answer() {
-  if (!clicks_.empty() || (cursor_ && view_.isVisible())) {
-    if (view_.warmPick()) {
-      gate_.request();
-      return;
-    }
+  if ((!clicks_.empty() || (cursor_ && view_.isVisible())) && view_.warmPick()) {
+    gate_.request();
+    return;
   }
   if (clicks_.empty()) {
     hoverThing();
     return;
   }
-  for (; !clicks_.empty();) {
+  while (!clicks_.empty()) {
     const Click click = clicks_.front();
     clicks_.pop_front();
     answerClick(click);

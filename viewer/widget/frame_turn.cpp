@@ -65,7 +65,7 @@ class FrameTurns : public QObject {
     last_ = turn;
     under_way_ = turn;
     const bool goes_on = turn->step_();
-    if (!goes_on || under_way_ == nullptr) {  // none: the view has gone meanwhile
+    if (!goes_on) {
       under_way_ = nullptr;
     }
     if (under_way_ != nullptr || !waiting_.empty()) {

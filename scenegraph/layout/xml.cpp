@@ -3,7 +3,6 @@
 #include <expat.h>
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <memory>
 #include <ranges>
@@ -137,7 +136,7 @@ class Reader {
 /// A comment of the file, not of what is within its root.
 bool isOutside(const XmlElement& element) { return element.name == kCommentBefore || element.name == kCommentAfter; }
 
-/// `indent` is negative where space would be text.
+/// `indent` is negative where space would be text, 0 for the root, whose comments of the file stand outside it.
 void writeElement(const XmlElement& element, int indent, std::string& out) {  // as deep as the limit of parseXml()
   if (element.name.empty()) {
     appendXmlText(element.text, out);
@@ -161,7 +160,8 @@ void writeElement(const XmlElement& element, int indent, std::string& out) {  //
     appendXmlAttribute(value, out);
     out += "\"";
   }
-  auto children = element.children | std::views::filter(std::not_fn(isOutside));
+  const bool is_root = indent == 0;
+  auto children = element.children | std::views::filter([&](const auto& of) { return !is_root || !isOutside(of); });
   if (children.empty()) {
     out += "/>";
     return;

@@ -251,7 +251,7 @@ void ComputePoints::draw(const PassRange& passes) {
   glFinish();  // or nobody knew how many points a frame has time for
 }
 
-std::size_t ComputePoints::resolve(const PointShading& shading) {
+std::size_t ComputePoints::resolve(const PointShading& shading, const glm::vec4& /*background*/) {
   state_.setActiveTextureUnit(0);
   for (const auto& texture : {color_, depth_}) {
     texture->apply(state_);

@@ -31,7 +31,8 @@ class ComputePoints final : public PointDrawer {
 
   std::size_t begin(const PointCollection& points, int width_px, int height_px) override;
   void draw(const PassRange& passes) override;
-  std::size_t resolve(const PointShading& shading) override;
+  std::size_t resolve(const PointShading& shading, const glm::vec4& background) override;
+  [[nodiscard]] bool needsContext() const noexcept override { return true; }
   [[nodiscard]] const char* name() const noexcept override { return "compute"; }
   [[nodiscard]] osg::Texture2D& colorTexture() noexcept override { return *color_; }
   [[nodiscard]] osg::Texture2D& depthTexture() noexcept override { return *depth_; }

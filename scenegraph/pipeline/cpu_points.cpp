@@ -36,13 +36,19 @@ std::size_t CpuPoints::begin(const PointCollection& points, int width_px, int he
 
 void CpuPoints::draw(const PassRange& passes) { raster_.draw(batches_, passes); }
 
-std::size_t CpuPoints::resolve(const PointShading& shading) {
+std::size_t CpuPoints::resolve(const PointShading& shading, const glm::vec4& background) {
   const std::size_t pixels = raster_.keys().size();
   raster_.resolve(shading, {reinterpret_cast<std::uint16_t*>(color_->data()), 4 * pixels},
-                  {reinterpret_cast<float*>(depth_->data()), pixels});
+                  {reinterpret_cast<float*>(depth_->data()), pixels}, background);
   color_->dirty();
   depth_->dirty();
   return std::size_t{color_->getTotalSizeInBytes()} + depth_->getTotalSizeInBytes();
+}
+
+PointPixels CpuPoints::pixels() const noexcept {
+  const std::size_t pixels = raster_.keys().size();
+  return {{reinterpret_cast<const std::uint16_t*>(color_->data()), 4 * pixels},
+          {reinterpret_cast<const float*>(depth_->data()), pixels}};
 }
 
 }  // namespace stillframe::scenegraph

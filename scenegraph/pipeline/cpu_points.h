@@ -16,8 +16,10 @@ class CpuPoints final : public PointDrawer {
 
   std::size_t begin(const PointCollection& points, int width_px, int height_px) override;
   void draw(const PassRange& passes) override;
-  std::size_t resolve(const PointShading& shading) override;
+  std::size_t resolve(const PointShading& shading, const glm::vec4& background) override;
+  [[nodiscard]] PointPixels pixels() const noexcept override;
   [[nodiscard]] std::span<const std::uint64_t> keys() const noexcept override { return raster_.keys(); }
+  [[nodiscard]] bool needsContext() const noexcept override { return false; }
   [[nodiscard]] const char* name() const noexcept override { return "cpu"; }
   [[nodiscard]] osg::Texture2D& colorTexture() noexcept override { return *color_texture_; }
   [[nodiscard]] osg::Texture2D& depthTexture() noexcept override { return *depth_texture_; }

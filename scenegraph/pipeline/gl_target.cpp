@@ -101,6 +101,15 @@ std::uint32_t readNumber(std::uint32_t texture) {
   return number;
 }
 
+void writePixels(std::uint32_t color_texture, std::uint32_t depth_texture, int width_px, int height_px,
+                 const std::uint16_t* rgba, const float* depths) {
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  glTextureSubImage2D(color_texture, 0, 0, 0, width_px, height_px, GL_RGBA, GL_HALF_FLOAT, rgba);
+  glTextureSubImage2D(depth_texture, 0, 0, 0, width_px, height_px, GL_DEPTH_COMPONENT, GL_FLOAT, depths);
+}
+
 std::vector<float> readColor(std::uint32_t texture, const Rows& rows) {
   GLint format = 0;
   glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);

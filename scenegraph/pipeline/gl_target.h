@@ -41,6 +41,10 @@ struct Rows {
   int first = 0;     ///< from the bottom
   int count = 0;
 };
+/// Puts a whole picture of half floats, 4 a pixel, and one of depths into level 0 of textures that may be the targets
+/// that are drawn into just now.
+void writePixels(std::uint32_t color_texture, std::uint32_t depth_texture, int width_px, int height_px,
+                 const std::uint16_t* rgba, const float* depths);
 /// Rows of a colour texture as RGBA, bottom row first; waits for the GPU.
 [[nodiscard]] std::vector<float> readColor(std::uint32_t texture, const Rows& rows);
 /// The same of a 32-bit float depth texture, one float a pixel.

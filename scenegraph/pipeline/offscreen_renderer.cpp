@@ -2,13 +2,21 @@
 
 #include <GL/gl.h>
 
-#include <chrono>
+#include <algorithm>
 #include <ctime>
+#include <semaphore>
 #include <utility>
 
 #include "scenegraph/stopwatch.h"
 
 namespace stillframe::scenegraph {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double cpuMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+}  // namespace
 
 std::expected<std::unique_ptr<OffscreenRenderer>, Status> OffscreenRenderer::create() {
   auto context = OffscreenContext::create();
@@ -21,10 +29,10 @@ std::expected<std::unique_ptr<OffscreenRenderer>, Status> OffscreenRenderer::cre
 OffscreenRenderer::~OffscreenRenderer() {
   context_->makeCurrent();
   pipeline_.reset();
+  output_.reset();
 }
 
-std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const CameraView& view,
-                                                         const RenderOptions& options) {
+std::expected<void, Status> OffscreenRenderer::makeReady(osg::Group& root, const RenderOptions& options) {
   if (const auto checked = checkPicture(options, context_->info().max_texture_size); !checked) {
     return std::unexpected(checked.error());
   }
@@ -36,24 +44,71 @@ std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const
     root_ = &root;
     pipeline_ = std::make_unique<ViewPipeline>(root_);
   }
-  pipeline_->setView(view);
-  const auto start = std::chrono::steady_clock::now();
-  const std::clock_t cpu_start = std::clock();
-  const auto drawn = drawPicture(*pipeline_, options);
-  if (!drawn) {
-    return std::unexpected(drawn.error());
-  }
+  return {};
+}
+
+void OffscreenRenderer::noteFrame(std::chrono::steady_clock::time_point start, double cpu_start_ms) {
   glFinish();
   statistics_.frame_ms = millisecondsSince(start);
-  statistics_.cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+  statistics_.cpu_ms = cpuMs() - cpu_start_ms;
   statistics_.passes = pipeline_->passes();
   statistics_.points = pipeline_->pointProgress();
   statistics_.samples = pipeline_->samples();
   statistics_.blended_bands = pipeline_->blendedBands();
-  const auto read_start = std::chrono::steady_clock::now();
+}
+
+std::expected<Picture, Status> OffscreenRenderer::render(osg::Group& root, const CameraView& view,
+                                                         const RenderOptions& options) {
+  if (const auto ready = makeReady(root, options); !ready) {
+    return std::unexpected(ready.error());
+  }
+  pipeline_->setView(view);
+  const auto start = Clock::now();
+  const double cpu_start_ms = cpuMs();
+  if (const auto drawn = drawPicture(*pipeline_, options); !drawn) {
+    return std::unexpected(drawn.error());
+  }
+  noteFrame(start, cpu_start_ms);
+  const auto read_start = Clock::now();
   auto picture = readPicture(*pipeline_, options);
   statistics_.read_back_ms = millisecondsSince(read_start);
   return picture;
+}
+
+std::expected<void, Status> OffscreenRenderer::show(osg::Group& root, const CameraView& view,
+                                                    const RenderOptions& options) {
+  if (const auto ready = makeReady(root, options); !ready) {
+    return std::unexpected(ready.error());
+  }
+  if (output_ == nullptr || output_->width() != options.width || output_->height() != options.height) {
+    output_ = std::make_unique<gl::Output>(options.width, options.height);
+  }
+  takeOptions(*pipeline_, options);
+  pipeline_->setView(view);
+  const auto woken = std::make_shared<std::binary_semaphore>(0);
+  pipeline_->setWake([woken] { woken->release(); });
+  const auto start = Clock::now();
+  const double cpu_start_ms = cpuMs();
+  statistics_.step_ms = 0.0;
+  std::expected<PictureStep, Status> done = PictureStep::More;
+  while (done && *done != PictureStep::Whole) {
+    if (*done == PictureStep::Waits) {
+      woken->acquire();
+    }
+    const auto step_start = Clock::now();
+    done = pipeline_->step(output_->id(), options.width, options.height, ViewPipeline::kStepMs);
+    statistics_.step_ms = std::max(statistics_.step_ms, millisecondsSince(step_start));
+  }
+  pipeline_->setWake(nullptr);
+  if (!done) {
+    return std::unexpected(done.error());
+  }
+  const auto present_start = Clock::now();
+  pipeline_->present(output_->id());
+  noteFrame(start, cpu_start_ms);
+  statistics_.step_ms = std::max(statistics_.step_ms, millisecondsSince(present_start));
+  statistics_.read_back_ms = 0.0;
+  return {};
 }
 
 std::vector<PickHit> OffscreenRenderer::pick(int x_px, int y_px, int reach_px) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <expected>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scenegraph/pipeline/gl_output.h"
 #include "scenegraph/pipeline/offscreen_context.h"
 #include "scenegraph/pipeline/picture.h"
 #include "scenegraph/pipeline/view_pipeline.h"
@@ -15,9 +17,10 @@
 
 namespace stillframe::scenegraph {
 
-/// What the last render() did and took, in milliseconds of wall time with the GPU drained.
+/// What the last render() or show() did and took, in milliseconds of wall time with the GPU drained.
 struct FrameStatistics {
   double frame_ms = 0.0;      ///< culling and drawing
+  double step_ms = 0.0;       ///< of show(): the longest that it kept its thread busy at a time
   double cpu_ms = 0.0;        ///< of all threads of the process meanwhile
   double read_back_ms = 0.0;  ///< from the target into the Picture
   std::vector<std::string> passes;
@@ -37,6 +40,8 @@ class OffscreenRenderer {
   /// Draws `root` seen from `view`. Compiled programs and uploaded arrays are kept while `root` stays the same.
   /// Refuses what checkPicture() does.
   std::expected<Picture, Status> render(osg::Group& root, const CameraView& view, const RenderOptions& options);
+  /// Draws it as a window does, in steps, its points on a thread beside this one; shows it to nobody.
+  std::expected<void, Status> show(osg::Group& root, const CameraView& view, const RenderOptions& options);
 
   /// What the last picture shows at a pixel from its top left corner and near it (ViewPipeline::pick).
   [[nodiscard]] std::vector<PickHit> pick(int x_px, int y_px, int reach_px = ViewPipeline::kPickReachPx);
@@ -46,10 +51,13 @@ class OffscreenRenderer {
 
  private:
   explicit OffscreenRenderer(std::unique_ptr<OffscreenContext> context) : context_(std::move(context)) {}
+  std::expected<void, Status> makeReady(osg::Group& root, const RenderOptions& options);
+  void noteFrame(std::chrono::steady_clock::time_point start, double cpu_start_ms);
 
   std::unique_ptr<OffscreenContext> context_;
   osg::ref_ptr<osg::Group> root_;
   std::unique_ptr<ViewPipeline> pipeline_;
+  std::unique_ptr<gl::Output> output_;  // of show()
   FrameStatistics statistics_;
 };
 

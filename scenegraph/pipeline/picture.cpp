@@ -87,12 +87,16 @@ std::expected<void, Status> checkPicture(const RenderOptions& options, int large
   return {};
 }
 
-std::expected<void, Status> drawPicture(ViewPipeline& pipeline, const RenderOptions& options) {
+void takeOptions(ViewPipeline& pipeline, const RenderOptions& options) {
   pipeline.setBackground(options.background.a < 1.0F ? kBlack : options.background);
   pipeline.setPointWay(options.points);
   pipeline.setBlendLimits(options.blend);
   pipeline.setPointLimits(options.point_limits);
   pipeline.setPostChain(options.post);
+}
+
+std::expected<void, Status> drawPicture(ViewPipeline& pipeline, const RenderOptions& options) {
+  takeOptions(pipeline, options);
   return pipeline.renderLinear(options.width, options.height);
 }
 

@@ -43,8 +43,11 @@ inline constexpr double kMaxPictureBytes = 6.0 * (1LL << 30);
 /// limits above).
 std::expected<void, Status> checkPicture(const RenderOptions& options, int largest_side_px);
 
-/// Draws what `pipeline` looks at into its own targets, by the options alone. The
-/// context must be current, and the picture checked. Leaves the options' chain and background in the pipeline.
+/// What `pipeline` draws from now on is drawn by these options alone, but for its size.
+void takeOptions(ViewPipeline& pipeline, const RenderOptions& options);
+
+/// Draws what `pipeline` looks at into its own targets, takeOptions() included. The
+/// context must be current, and the picture checked.
 std::expected<void, Status> drawPicture(ViewPipeline& pipeline, const RenderOptions& options);
 
 /// Reads it back. Where the background is not opaque it is drawn again, on white: how much of a pixel hides the

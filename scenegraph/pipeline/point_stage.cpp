@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
+#include <utility>
 
 #include "generated/stillframe_render/shaders.h"
 #include "scenegraph/geometry.h"
@@ -23,8 +25,15 @@ constexpr double kNewest = 0.5;      // of the mean: soon right after a change, 
 PointStage::PointStage(unsigned threads) : PointStage(std::make_unique<CpuPoints>(threads)) {}
 
 PointStage::PointStage(std::unique_ptr<PointDrawer> drawer)
-    : drawer_(std::move(drawer)), points_per_ms_(kFirstGuess), triangle_(makeFullScreenTriangle(new osg::StateSet)) {
-  triangle_->setNodeMask(0);
+    : drawer_(std::move(drawer)),
+      points_per_ms_(kFirstGuess),
+      triangle_(makeFullScreenTriangle(new osg::StateSet)),
+      copy_(new PointPicture(*drawer_)),
+      picture_(new osg::Group) {
+  picture_->addChild(triangle_);
+  picture_->addChild(copy_);
+  picture_->setNodeMask(0);
+  copy_->setNodeMask(0);
   osg::StateSet& state = *triangle_->getStateSet();
   state.setAttributeAndModes(makeProgram("points", glsl::k_full_screen_vert, glsl::k_points_frag));
   state.setTextureAttribute(0, &drawer_->colorTexture());
@@ -33,6 +42,18 @@ PointStage::PointStage(std::unique_ptr<PointDrawer> drawer)
   state.addUniform(new osg::Uniform{"u_depth", 1});
   constexpr int kBeforeAll = -1000;
   state.setRenderBinDetails(kBeforeAll, "RenderBin");
+  copy_->getOrCreateStateSet()->setRenderBinDetails(kBeforeAll, "RenderBin");
+}
+
+void PointStage::setTargets(const std::optional<PointTargets>& targets) {
+  wait();
+  const bool is_copied = targets && !drawer_->needsContext();
+  triangle_->setNodeMask(is_copied ? 0U : ~0U);
+  copy_->setNodeMask(is_copied ? ~0U : 0U);
+  copy_->setTargets(is_copied ? *targets : PointTargets{});
+  const glm::vec4 background = is_copied ? targets->background : glm::vec4(0.0F);
+  is_background_new_ = is_background_new_ || background != background_;
+  background_ = background;
 }
 
 std::size_t PointStage::startAnew(const PointCollection& points, int width_px, int height_px) {
@@ -84,8 +105,39 @@ void PointStage::noteRate(double points_per_ms, double points, bool is_first) {
   }
 }
 
+PointStage::~PointStage() { wait(); }
+
+void PointStage::wait() const {
+  if (started_.valid()) {
+    started_.wait();
+  }
+}
+
 PointProgress PointStage::draw(PointCollection points, int width_px, int height_px, const PointLimits& limits) {
-  triangle_->setNodeMask(points.count > 0 ? ~0U : 0U);
+  wait();
+  return drawNow(std::move(points), width_px, height_px, limits);
+}
+
+void PointStage::start(PointCollection points, int width_px, int height_px, const PointLimits& limits,
+                       std::function<void()> wake) {
+  wait();
+  is_under_way_ = true;
+  if (aside_ == nullptr) {
+    aside_ = makeThreadPoolExecutor(1);
+  }
+  const auto work = std::make_shared<std::packaged_task<PointProgress()>>(
+      [this, points = std::move(points), width_px, height_px, limits, wake = std::move(wake)]() mutable {
+        PointProgress progress = drawNow(std::move(points), width_px, height_px, limits);
+        is_under_way_ = false;
+        wake();
+        return progress;
+      });
+  started_ = work->get_future();
+  aside_->submit([work] { (*work)(); });
+}
+
+PointProgress PointStage::drawNow(PointCollection points, int width_px, int height_px, const PointLimits& limits) {
+  picture_->setNodeMask(points.count > 0 ? ~0U : 0U);
   if (points.count == 0) {
     drawn_ = {};
     return {.by = drawer_->name()};
@@ -106,9 +158,10 @@ PointProgress PointStage::draw(PointCollection points, int width_px, int height_
   }
   const bool is_whole = passes_ == kPassesOfBothLaps || in_view_.count() == 0;
   progress.share = is_whole ? 1.0 : in_view_.drawnBefore(passes_) / static_cast<double>(in_view_.count());
-  if (is_drawing || !is_same_colors) {
+  if (is_drawing || !is_same_colors || is_background_new_) {
+    is_background_new_ = false;
     const auto drawn = Clock::now();
-    progress.upload_bytes += drawer_->resolve(PointShading(drawn_.batches, drawn_.colors));
+    progress.upload_bytes += drawer_->resolve(PointShading(drawn_.batches, drawn_.colors), background_);
     progress.resolve_ms = millisecondsSince(drawn);
     resolve_ms_ += kNewest * (progress.resolve_ms - resolve_ms_);
   }
@@ -116,6 +169,7 @@ PointProgress PointStage::draw(PointCollection points, int width_px, int height_
 }
 
 std::span<const std::uint64_t> PointStage::keys(PointCollection points, int width_px, int height_px) {
+  wait();
   if (points.batches != drawn_.batches || width_px_ != width_px || height_px_ != height_px) {
     (void)startAnew(points, width_px, height_px);
     drawer_->draw({});

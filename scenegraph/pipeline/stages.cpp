@@ -269,6 +269,15 @@ void Stages::addPass(const PostPass& pass) {
   last_target_ = pass.name;
 }
 
+std::optional<PointTargets> Stages::pointTargets() const {
+  const auto scene = targets_.find("scene");
+  if (samples_ > 1 || scene == targets_.end() || internalFormat(scene->second.first.first) != GL_RGBA16F) {
+    return std::nullopt;
+  }
+  const osg::Vec4& clear = scene_camera_->getClearColor();
+  return PointTargets{target("scene"), target("depth"), {clear.r(), clear.g(), clear.b(), clear.a()}};
+}
+
 void Stages::setView(const osg::Matrixd& eye_from_fixed, const glm::dmat4& clip_from_eye, const Color& background) {
   clip_from_eye_ = clip_from_eye;
   scene_camera_->setProjectionMatrix(toOsg(clip_from_eye));

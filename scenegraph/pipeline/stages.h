@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <expected>
 #include <map>
+#include <optional>
 #include <osg/Camera>
 #include <osg/Group>
 #include <osg/Texture>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "scenegraph/camera/camera.h"
+#include "scenegraph/pipeline/point_picture.h"
 #include "scenegraph/pipeline/post_chain.h"
 #include "scenegraph/pipeline/scene_steps.h"
 #include "scenegraph/pipeline/transparency.h"
@@ -44,6 +46,9 @@ class Stages {
   void setView(const osg::Matrixd& eye_from_fixed, const glm::dmat4& clip_from_eye, const Color& background);
   /// Takes the values of uniforms from a chain of the same structure.
   void takeParameters(const PostChain& chain);
+  /// Where a picture of half floats may be put before the scene is drawn, in place of what it is cleared to; nullopt
+  /// where it is drawn otherwise.
+  [[nodiscard]] std::optional<PointTargets> pointTargets() const;
   /// The scene's projection, of the present sub-frame.
   [[nodiscard]] const osg::Matrixd& clipFromEye() const { return scene_camera_->getProjectionMatrix(); }
   /// Leaves out of the scene what has no bit in common with `mask`.

@@ -9,6 +9,7 @@
 #include <osg/GLObjects>
 #include <osg/Texture>
 #include <osgViewer/Renderer>
+#include <utility>
 
 #include "scenegraph/buffer_patches.h"
 #include "scenegraph/geometry.h"
@@ -136,8 +137,9 @@ PointWay ViewPipeline::Impl::wayOf(const PointCollection& points) const {
   return points.count >= kPointsThatPayOnAGpu && ComputePoints::suits(points) ? PointWay::Compute : PointWay::OpenGl;
 }
 
-/// For the present sub-frame; of several each is drawn with all points, in as many goes as the budget wants.
-void ViewPipeline::Impl::drawPoints(double sub_frame_budget_ms) {
+/// Those of the present sub-frame that OpenGL does not draw, and the stage for them; of several sub-frames each is
+/// drawn with all points, in as many goes as the budget wants.
+std::optional<PointWork> ViewPipeline::Impl::findPoints(double sub_frame_budget_ms) {
   PointCollection points;
   const bool is_gl_alone = point_way == PointWay::OpenGl || (point_way == PointWay::Auto && stages->samples() > 1);
   if (!is_gl_alone) {
@@ -148,27 +150,38 @@ void ViewPipeline::Impl::drawPoints(double sub_frame_budget_ms) {
     dropPoints();
   }
   stage_way = way;
-  point_progress.reset();
-  if (way != PointWay::OpenGl) {
-    if (point_stage == nullptr) {
-      point_stage = way == PointWay::Cpu
-                        ? std::make_unique<PointStage>()
-                        : std::make_unique<PointStage>(std::make_unique<ComputePoints>(*window->getState()));
-      content->addChild(&point_stage->picture());
-    }
-    PointLimits limits = point_limits;
-    if (stages->subFrames() > 1) {
-      limits.budget_ms = sub_frame_budget_ms;
-    } else if (isPaced()) {
-      constexpr double kLeast = 0.25;    // of the budget: the picture of the points must come to an end
-      constexpr double kUnknown = 0.75;  // of it, in a first frame, which makes shaders and textures
-      constexpr double kAim = 0.9;       // at less than all of it: a core may be busy when the frame is half drawn
-      const double rest = rest_ms.value_or(kUnknown * limits.budget_ms);
-      limits.budget_ms = std::max(kAim * limits.budget_ms - rest, kLeast * limits.budget_ms);
-    }
-    point_progress = point_stage->draw(std::move(points), width_px, height_px, limits);
+  if (way == PointWay::OpenGl) {
+    return std::nullopt;
   }
+  if (point_stage == nullptr) {
+    point_stage = way == PointWay::Cpu
+                      ? std::make_unique<PointStage>()
+                      : std::make_unique<PointStage>(std::make_unique<ComputePoints>(*window->getState()));
+    content->addChild(&point_stage->picture());
+  }
+  PointLimits limits = point_limits;
+  if (stages->subFrames() > 1) {
+    limits.budget_ms = sub_frame_budget_ms;
+  } else if (isPaced()) {
+    constexpr double kLeast = 0.25;    // of the budget: the picture of the points must come to an end
+    constexpr double kUnknown = 0.75;  // of it, in a first frame, which makes shaders and textures
+    constexpr double kAim = 0.9;       // at less than all of it: a core may be busy when the frame is half drawn
+    const double rest = rest_ms.value_or(kUnknown * limits.budget_ms);
+    limits.budget_ms = std::max(kAim * limits.budget_ms - rest, kLeast * limits.budget_ms);
+  }
+  point_stage->setTargets(stages->pointTargets());
+  return PointWork{std::move(points), limits};
+}
+
+void ViewPipeline::Impl::notePoints(std::optional<PointProgress> progress) {
+  point_progress = std::move(progress);
   stages->setCullMask(point_progress ? ~kOpaquePoints : ~osg::Node::NodeMask{0});
+}
+
+void ViewPipeline::Impl::drawPoints() {
+  auto work = findPoints(std::numeric_limits<double>::infinity());
+  notePoints(work ? std::optional(point_stage->draw(std::move(work->points), width_px, height_px, work->limits))
+                  : std::nullopt);
 }
 
 /// In software the frame is drawn by the processor that the points are drawn by: what it took, they have less of.
@@ -177,13 +190,18 @@ void ViewPipeline::Impl::drawFrame() {
   viewer->frame();
   if (point_progress && isPaced()) {
     gl::finish();
-    const double took_ms = millisecondsSince(start);
-    rest_ms = rest_ms && took_ms < *rest_ms ? (*rest_ms + took_ms) / 2.0 : took_ms;  // the next is not to be late too
+    noteRest(millisecondsSince(start));
   }
+}
+
+/// Of a frame beside its points; the next is not to be late too.
+void ViewPipeline::Impl::noteRest(double took_ms) {
+  rest_ms = rest_ms && took_ms < *rest_ms ? (*rest_ms + took_ms) / 2.0 : took_ms;
 }
 
 void ViewPipeline::Impl::dropPoints() {
   if (point_stage != nullptr) {
+    point_stage->wait();
     content->removeChild(&point_stage->picture());
     point_stage->picture().releaseGLObjects(window->getState());
     point_stage.reset();
@@ -288,6 +306,8 @@ void ViewPipeline::setBlendLimits(const BlendLimits& limits) {
 void ViewPipeline::setPointWay(PointWay way) { impl_->point_way = way; }
 
 void ViewPipeline::setPointLimits(const PointLimits& limits) { impl_->point_limits = limits; }
+
+void ViewPipeline::setWake(std::function<void()> wake) { impl_->wake = std::move(wake); }
 
 const std::optional<PointProgress>& ViewPipeline::pointProgress() const noexcept { return impl_->point_progress; }
 

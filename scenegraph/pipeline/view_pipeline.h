@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <expected>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <osg/Group>
@@ -21,6 +22,13 @@ namespace stillframe::scenegraph {
 
 /// Who draws opaque points.
 enum class PointWay : std::uint8_t { Auto, OpenGl, Cpu, Compute };
+
+/// What a step of a picture came to.
+enum class PictureStep : std::uint8_t {
+  Whole,  ///< all is drawn: present() shows it
+  More,   ///< there is more to be drawn
+  Waits,  ///< the same, once somebody else has done his part (ViewPipeline::setWake)
+};
 
 /// Draws a scene graph into targets of its own and, when asked, on to a framebuffer of somebody else.
 ///
@@ -56,14 +64,20 @@ class ViewPipeline {
   /// Of the last render; nullopt: OpenGL drew the points, all of them.
   [[nodiscard]] const std::optional<PointProgress>& pointProgress() const noexcept;
 
+  /// From now on, points that are drawn on the CPU are drawn on a thread of their own while a picture is drawn in
+  /// steps: step() says Waits, and `wake` is called, from any thread, when it may go on. nullptr, as at first: step()
+  /// does it.
+  void setWake(std::function<void()> wake);
+
   /// Draws one frame and presents it in `output_fbo`, over the whole of it. Sizes in device pixels; 0 draws nothing.
   /// Errors: "TargetIncomplete", the driver cannot make targets of this size; "UnknownInput", a pass reads what nobody
   /// writes.
   std::expected<void, Status> render(std::uint32_t output_fbo, int width_px, int height_px);
   /// The same picture in steps, each of about `budget_ms` (of a wait for OpenGL, where it is software) and at most one
-  /// drawable or pass more: true once all is drawn and present() shows it. View, points and background are those of
-  /// the first step; another size, chain or render() begin anew. The scene must stay as it is meanwhile.
-  std::expected<bool, Status> step(std::uint32_t output_fbo, int width_px, int height_px, double budget_ms);
+  /// drawable or pass more. View, points and background are those of the first step; another size, chain or render()
+  /// begin anew. The scene must stay as it is meanwhile.
+  static constexpr double kStepMs = 20.0;  ///< the budget in a window: other events wait no longer
+  std::expected<PictureStep, Status> step(std::uint32_t output_fbo, int width_px, int height_px, double budget_ms);
   /// Presents what step() has drawn, over the whole of `output_fbo`. Does nothing before that.
   void present(std::uint32_t output_fbo);
   /// The same without present, for readColor(): what a picture file holds is not rounded to bytes on the way.

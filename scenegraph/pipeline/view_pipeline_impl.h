@@ -2,7 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <functional>
 #include <osgViewer/GraphicsWindow>
 #include <osgViewer/Viewer>
 
@@ -17,9 +17,17 @@ namespace stillframe::scenegraph {
 /// A picture that is being drawn in steps.
 struct SteppedPicture {
   int sub_frame = 0;
-  std::size_t stage = 0;    // of it, that is drawn next
-  bool has_points = false;  // those that are not drawn with the scene
-  bool is_begun = false;    // the scene's targets are cleared
+  std::size_t stage = 0;       // of it, that is drawn next
+  bool awaits_points = false;  // they are being drawn by another thread
+  bool has_points = false;     // those that are not drawn with the scene
+  bool is_begun = false;       // the scene's targets are cleared
+  double rest_ms = 0.0;        // that all but the points has taken
+};
+
+/// What a PointStage is to draw.
+struct PointWork {
+  PointCollection points;
+  PointLimits limits;
 };
 
 /// What a ViewPipeline is made of; for its sources alone.
@@ -41,6 +49,7 @@ struct ViewPipeline::Impl {
   BlendLimits blend;
   PointWay point_way = PointWay::Auto;
   PointLimits point_limits;
+  std::function<void()> wake;
   std::optional<double> rest_ms;  // of a frame beside its points, once measured where there is a budget for both
   bool is_software = false;
   osg::ref_ptr<osg::Group> content;         // the root, and the picture of the points
@@ -58,10 +67,13 @@ struct ViewPipeline::Impl {
   void dropStages();
   void adoptGlState();
   [[nodiscard]] PointWay wayOf(const PointCollection& points) const;
-  void drawPoints(double sub_frame_budget_ms = std::numeric_limits<double>::infinity());
-  bool stepPoints(double budget_ms);
+  [[nodiscard]] std::optional<PointWork> findPoints(double sub_frame_budget_ms);
+  void notePoints(std::optional<PointProgress> progress);
+  void drawPoints();
+  PictureStep stepPoints(double budget_ms);
   void dropPoints();
   void drawFrame();
+  void noteRest(double took_ms);
   [[nodiscard]] bool isPaced() const { return is_software && std::isfinite(point_limits.budget_ms); }
   [[nodiscard]] GLuint textureId(const std::string& target) const;
   [[nodiscard]] auto read(decltype(gl::readColor)* reader, const std::string& target, int first, int rows) const {

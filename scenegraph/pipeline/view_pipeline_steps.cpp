@@ -1,6 +1,7 @@
 // What a picture of ViewPipeline takes beside drawing it at once: steps, and what lies at a pixel.
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "scenegraph/buffer_patches.h"
 #include "scenegraph/osg_matrix.h"
@@ -15,13 +16,13 @@ constexpr double kMuch = 0.5;  // of the budget: points that take as much have a
 
 }  // namespace
 
-std::expected<bool, Status> ViewPipeline::step(std::uint32_t output_fbo, int width_px, int height_px,
-                                               double budget_ms) {
+std::expected<PictureStep, Status> ViewPipeline::step(std::uint32_t output_fbo, int width_px, int height_px,
+                                                      double budget_ms) {
   Impl& impl = *impl_;
   if (width_px <= 0 || height_px <= 0) {
     impl.stepped.reset();
     impl.passes.clear();
-    return true;
+    return PictureStep::Whole;
   }
   const auto start = std::chrono::steady_clock::now();
   const auto remade = impl.makeReady(width_px, height_px, true);
@@ -35,27 +36,32 @@ std::expected<bool, Status> ViewPipeline::step(std::uint32_t output_fbo, int wid
     impl.stepped.emplace();
     impl.projection_matrix = projection(impl.view, static_cast<double>(width_px) / height_px);
     stages.setView(toOsg(impl.view.eye_from_fixed), impl.projection_matrix, impl.background);
-    impl.rest_ms = 0.0;  // is not drawn in the same step
   }
   impl.startPicture(output_fbo);
   SteppedPicture& at = *impl.stepped;
   for (bool is_first = true; at.stage + 1 < stages.count(); is_first = false) {
     const double left_ms = budget_ms - millisecondsSince(start);
     if (!is_first && left_ms <= 0.0) {
-      return false;
+      return PictureStep::More;
     }
     if (!at.has_points) {
-      if (!impl.stepPoints(budget_ms) || millisecondsSince(start) > kMuch * budget_ms) {
-        return false;
+      const PictureStep points = impl.stepPoints(budget_ms);
+      if (points == PictureStep::Waits) {
+        return points;
+      }
+      if (points == PictureStep::More || millisecondsSince(start) > kMuch * budget_ms) {
+        return PictureStep::More;
       }
       continue;
     }
+    const auto begun = std::chrono::steady_clock::now();
     stages.showOnly(at.stage, !at.is_begun);
     stages.steps().setBudget(left_ms, impl.is_software);
     impl.viewer->frame();
     if (impl.is_software) {
       gl::finish();
     }
+    at.rest_ms += millisecondsSince(begun);
     if (!at.is_begun) {
       at.is_begun = true;
       if (const auto checked = impl.checkTargets(); !checked && *remade) {
@@ -70,18 +76,33 @@ std::expected<bool, Status> ViewPipeline::step(std::uint32_t output_fbo, int wid
       at = {.sub_frame = at.sub_frame + 1};
     }
   }
-  return true;
+  return PictureStep::Whole;
 }
 
-/// Of the present sub-frame. Returns whether that has all of its points: those of a picture that is not averaged
-/// become more with the next.
-bool ViewPipeline::Impl::stepPoints(double budget_ms) {
+/// Of the present sub-frame; Whole when that has all of its points: those of a picture that is not averaged become more
+/// with the next.
+PictureStep ViewPipeline::Impl::stepPoints(double budget_ms) {
   SteppedPicture& at = *stepped;
-  stages->startSubFrame(at.sub_frame);
-  stages->beginSteps();
-  drawPoints(budget_ms);
+  if (at.awaits_points) {
+    if (point_stage->isUnderWay()) {
+      return PictureStep::Waits;
+    }
+    notePoints(point_stage->finish());
+  } else {
+    stages->startSubFrame(at.sub_frame);
+    stages->beginSteps();
+    auto work = findPoints(budget_ms);
+    at.awaits_points = work && wake && !point_stage->drawer().needsContext();
+    if (at.awaits_points) {
+      point_stage->start(std::move(work->points), width_px, height_px, work->limits, wake);
+      return PictureStep::Waits;
+    }
+    notePoints(work ? std::optional(point_stage->draw(std::move(work->points), width_px, height_px, work->limits))
+                    : std::nullopt);
+  }
+  at.awaits_points = false;
   at.has_points = stages->subFrames() == 1 || !point_progress || point_progress->share >= 1.0;
-  return at.has_points;
+  return at.has_points ? PictureStep::Whole : PictureStep::More;
 }
 
 void ViewPipeline::present(std::uint32_t output_fbo) {
@@ -89,10 +110,16 @@ void ViewPipeline::present(std::uint32_t output_fbo) {
   if (!impl.stages || !impl.stepped || impl.stepped->stage + 1 < impl.stages->count()) {
     return;
   }
+  const auto start = std::chrono::steady_clock::now();
+  const double rest_ms = impl.stepped->rest_ms;
   impl.stepped.reset();
   impl.stages->showOnly(impl.stages->count() - 1, false);
   impl.startPicture(output_fbo);
   impl.viewer->frame();
+  if (impl.point_progress && impl.isPaced()) {
+    gl::finish();
+    impl.noteRest(rest_ms + millisecondsSince(start));
+  }
   gl::bindFramebuffer(output_fbo);
   impl.namePasses();
 }

@@ -308,17 +308,20 @@ std::size_t PointRaster::draw(std::span<const PointBatch> batches, const PassRan
   return drawn;
 }
 
-void PointRaster::resolve(const PointShading& shading, std::span<std::uint16_t> rgba, std::span<float> depth) const {
+void PointRaster::resolve(const PointShading& shading, std::span<std::uint16_t> rgba, std::span<float> depth,
+                          const glm::vec4& background) const {
   constexpr std::uint16_t kOne = 0x3c00;
   constexpr std::size_t kPixels = 16384;
   const std::size_t count = std::min({keys_.size(), rgba.size() / 4, depth.size()});
+  const std::array<std::uint16_t, 4> empty{halfFromFloat(background.r), halfFromFloat(background.g),
+                                           halfFromFloat(background.b), halfFromFloat(background.a)};
   const auto resolvePixels = [&](const tbb::blocked_range<std::size_t>& pixels) {
     for (std::size_t pixel = pixels.begin(); pixel < pixels.end(); ++pixel) {
       const std::uint64_t key = keys_[pixel];
       depth[pixel] = PointKey::depth(key);
       std::uint16_t* const out = &rgba[4 * pixel];
       if (key == 0) {
-        std::fill_n(out, 4, std::uint16_t{0});
+        std::ranges::copy(empty, out);
         continue;
       }
       const glm::vec4 color = shading.linearColor(PointKey::point(key));

@@ -75,9 +75,10 @@ class PointRaster {
   /// many points that left, which may differ between runs where more than one thread works.
   std::size_t draw(std::span<const PointBatch> batches, const PassRange& passes = {});
 
-  /// The picture in colour: linear red, green, blue and alpha of PointShading as half floats, and reverse-Z depth; all
-  /// 0 where nothing was drawn. One pixel a key; `shading` is that of the batches drawn.
-  void resolve(const PointShading& shading, std::span<std::uint16_t> rgba, std::span<float> depth) const;
+  /// The picture in colour: linear red, green, blue and alpha of PointShading as half floats, and reverse-Z depth;
+  /// `background` and 0 where nothing was drawn. One pixel a key; `shading` is that of the batches drawn.
+  void resolve(const PointShading& shading, std::span<std::uint16_t> rgba, std::span<float> depth,
+               const glm::vec4& background = glm::vec4(0.0F)) const;
 
   /// One key a pixel, bottom row first.
   [[nodiscard]] std::span<const std::uint64_t> keys() const noexcept { return keys_; }

@@ -16,6 +16,7 @@ class Views {
     int steps = 1;  // of a frame
     int frames = 1;
     bool is_favoured = false;
+    bool waits = false;  // for others, after this step
     int done = 0;
     std::unique_ptr<FrameTurn> turn;
   };
@@ -31,7 +32,7 @@ class Views {
           if (!goes_on && view.done < view.steps * view.frames) {
             view.turn->ask();  // something moves on
           }
-          return goes_on;
+          return view.waits ? FrameTurn::Step::Waits : goes_on ? FrameTurn::Step::GoesOn : FrameTurn::Step::Over;
         },
         [&view] { return view.is_favoured; });
     return view;
@@ -85,6 +86,31 @@ TEST(FrameTurn, ComesFirstWhereSomebodyLooksAndLeavesTurnsToOthers) {
   looked_at.is_favoured = true;
   looked_at.turn->ask();
   EXPECT_EQ(views.all(), "ccaccbbccaccbb");
+}
+
+TEST(FrameTurn, HasNoStepsWhileItWaits) {
+  Views views;
+  auto& waiting = views.add('a', 2);
+  waiting.waits = true;
+  waiting.turn->ask();
+  EXPECT_EQ(views.all(), "a");
+  auto& other = views.add('b', 1);
+  other.turn->ask();
+  EXPECT_EQ(views.all(), "") << "its frame is under way: the other comes after it";
+  waiting.waits = false;
+  waiting.turn->ask();
+  EXPECT_EQ(views.all(), "ab");
+}
+
+TEST(FrameTurn, LeavesItsTurnToOthersWhereItGoesWhileItWaits) {
+  Views views;
+  auto& gone = views.add('a', 2);
+  gone.waits = true;
+  gone.turn->ask();
+  EXPECT_EQ(views.all(), "a");
+  views.add('b', 1).turn->ask();
+  gone.turn.reset();
+  EXPECT_EQ(views.all(), "b");
 }
 
 TEST(FrameTurn, IsForgottenWithItsView) {

@@ -67,7 +67,6 @@ Result<BenchStep> BenchView::go(tf::TimePoint time, const std::function<bool()>&
   if (!is_framed_) {
     frameAll();
   }
-  double read_back_ms = 0.0;
   for (double share = 0.0; share < 1.0;) {
     if (const auto drawn = draw(); !drawn) {
       return std::unexpected(drawn.error());
@@ -75,8 +74,8 @@ Result<BenchStep> BenchView::go(tf::TimePoint time, const std::function<bool()>&
     const scenegraph::FrameStatistics& frame = renderer_->lastFrame();
     share = frame.points ? frame.points->share : 1.0;
     step.frame_ms = std::max(step.frame_ms, frame.frame_ms);
-    read_back_ms += frame.read_back_ms;  // no part of a frame in a window
-    const double passed_ms = scenegraph::millisecondsSince(start) - read_back_ms;
+    step.stall_ms = std::max(step.stall_ms, frame.step_ms);
+    const double passed_ms = scenegraph::millisecondsSince(start);
     step.picture_ms = step.picture_ms == 0.0 ? passed_ms : step.picture_ms;
     step.complete_ms = passed_ms;
   }
@@ -84,7 +83,7 @@ Result<BenchStep> BenchView::go(tf::TimePoint time, const std::function<bool()>&
 }
 
 Result<void> BenchView::draw() {
-  const auto drawn = renderer_->render(scene_.root(), view_, {.point_limits = {.budget_ms = kBudgetMs}});
+  const auto drawn = renderer_->show(scene_.root(), view_, {.point_limits = {.budget_ms = kBudgetMs}});
   return drawn ? Result<void>{} : failure(drawn.error().message);
 }
 

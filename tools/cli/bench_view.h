@@ -19,13 +19,14 @@ namespace stillframe::cli {
 /// What one position of the slider took.
 struct BenchStep {
   double tick_ms = 0.0;      ///< longest that a tick kept the thread of the window
-  double frame_ms = 0.0;     ///< longest that a frame did
+  double stall_ms = 0.0;     ///< longest that a step of a frame did
+  double frame_ms = 0.0;     ///< longest frame, from its beginning to its end
   double picture_ms = 0.0;   ///< from the slider to the picture of that instant, or a fair part of its points
   double complete_ms = 0.0;  ///< to all of it
 };
 
 /// A view of the clouds of a recording as the window has it, without one: background work on a pool, frames with a
-/// budget, and a loop that sleeps until somebody wakes it. One thread; requester() is for any.
+/// budget and in steps, and a loop that sleeps until somebody wakes it. One thread; requester() is for any.
 class BenchView {
  public:
   static constexpr double kBudgetMs = 33.0;

@@ -11,10 +11,9 @@ struct FrameSteps {
   enum class At : std::uint8_t {
     Rest,      ///< no frame is being drawn
     UnderWay,  ///< the next step is on its way
+    Waiting,   ///< it comes when others have done their part
     Ready,     ///< all is drawn but what puts it into the widget
   };
-  static constexpr double kBudgetMs = 20.0;  ///< of a step; a drawable that has been begun comes on top
-
   [[nodiscard]] bool isUpToDate() const noexcept { return at == At::Rest && !is_wanted && !has_put_tick; }
 
   At at = At::Rest;

@@ -25,20 +25,26 @@ class FrameTurns : public QObject {
     if (std::ranges::find(waiting_, &turn) == waiting_.end()) {
       waiting_.push_back(&turn);
     }
+    waits_ = waits_ && under_way_ != &turn;
     post();
   }
 
   void forget(const FrameTurn& turn) {
     std::erase(waiting_, &turn);
-    under_way_ = under_way_ == &turn ? nullptr : under_way_;
     last_ = last_ == &turn ? nullptr : last_;
+    if (under_way_ == &turn) {
+      under_way_ = nullptr;
+      waits_ = false;
+      post();
+    }
   }
 
  private:
   explicit FrameTurns(QObject* parent) : QObject(parent) { setObjectName(QStringLiteral("a step of a frame")); }
 
   void post() {
-    if (!std::exchange(is_posted_, true)) {
+    const bool has_steps = under_way_ != nullptr ? !waits_ : !waiting_.empty();
+    if (has_steps && !std::exchange(is_posted_, true)) {
       QMetaObject::invokeMethod(this, [this] { step(); }, Qt::QueuedConnection);
     }
   }
@@ -64,22 +70,23 @@ class FrameTurns : public QObject {
     std::erase(waiting_, turn);
     last_ = turn;
     under_way_ = turn;
-    const bool goes_on = turn->step_();
-    if (!goes_on) {
-      under_way_ = nullptr;
+    const FrameTurn::Step done = turn->step_();
+    if (under_way_ == turn) {  // and not forgotten meanwhile
+      under_way_ = done == FrameTurn::Step::Over ? nullptr : turn;
+      // Who is asked again during the step does not wait.
+      waits_ = done == FrameTurn::Step::Waits && std::ranges::find(waiting_, turn) == waiting_.end();
     }
-    if (under_way_ != nullptr || !waiting_.empty()) {
-      post();
-    }
+    post();
   }
 
   std::vector<FrameTurn*> waiting_;  // in the order of asking
   FrameTurn* under_way_ = nullptr;   // whose frame has been begun
+  bool waits_ = false;               // until that asks again
   FrameTurn* last_ = nullptr;        // that had a step
   bool is_posted_ = false;
 };
 
-FrameTurn::FrameTurn(std::function<bool()> step, std::function<bool()> is_favoured)
+FrameTurn::FrameTurn(std::function<Step()> step, std::function<bool()> is_favoured)
     : step_(std::move(step)), is_favoured_(std::move(is_favoured)) {}
 
 FrameTurn::~FrameTurn() {

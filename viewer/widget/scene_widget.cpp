@@ -31,6 +31,7 @@ QLabel* makeOverlay(QWidget* parent) {
 SceneWidget::SceneWidget(QWidget* parent)
     : QOpenGLWidget(parent),
       gate_([this] { applyTick(); }),
+      wake_gate_([this] { turn_.ask(); }),
       message_(makeOverlay(this)),
       progress_label_(makeOverlay(this)),
       help_(new HelpOverlay(this)),

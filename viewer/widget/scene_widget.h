@@ -154,16 +154,16 @@ class SceneWidget : public QOpenGLWidget {
   void leaveEvent(QEvent* event) override;
 
  private:
-  void releaseGl(), dropPipeline(), takeBack(), stepDrawTimes();
+  void releaseGl(), dropPipeline(), takeBack(), stepDrawTimes(), onCameraMoved(), walk();
   [[nodiscard]] bool isLent() const noexcept { return picture_ != nullptr || draw_times_ != nullptr; }
-  void beginFrame(), continueFrame(), endFrame(), askForFrame(), fillBlank(), keepPicture();
-  void frameIfWanted(), onCameraMoved(), walk();
-  bool stepFrame(), followTick(), obey(CameraCommand command), steer(CameraCommand command);
+  void beginFrame(), continueFrame(), endFrame(), askForFrame(), fillBlank(), keepPicture(), frameIfWanted();
+  FrameTurn::Step stepFrame();
+  bool followTick(), obey(CameraCommand command), steer(CameraCommand command);
   [[nodiscard]] scenegraph::Follow::Pose displayPose() const;
   [[nodiscard]] double now() const { return static_cast<double>(clock_.nsecsElapsed()) * 1e-9; }
   void showProgress(), sayProgress(const QString& text), showProblem(const QString& text);
   [[nodiscard]] double aspect() const;
-  UpdateGate gate_;
+  UpdateGate gate_, wake_gate_;  // of ticks; of what a frame waits for
   scenegraph::GlDebugLog debug_log_;
   std::size_t gl_messages_ = 0, logged_messages_ = 0;  // of contexts that are gone; of debug_log_ that went to glLog
   std::unique_ptr<scenegraph::Scene> scene_;

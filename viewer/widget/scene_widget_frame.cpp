@@ -93,6 +93,7 @@ void SceneWidget::beginFrame() {
     pipeline_ = std::make_unique<scenegraph::ViewPipeline>(
         scene_ == nullptr ? osg::ref_ptr<osg::Group>(new osg::Group) : osg::ref_ptr<osg::Group>(&scene_->root()));
     pipeline_->setPostChain(effects_.chain());
+    pipeline_->setWake(wake_gate_.requester());
   }
   const QSize size_px = sizePxOf(*this);
   walk();
@@ -116,7 +117,6 @@ void SceneWidget::beginFrame() {
   }
   fillBlank();
   steps_.is_wanted = false;
-  steps_.at = At::UnderWay;
   continueFrame();
   if (steps_.at == At::Ready && !is_software_) {
     pipeline_->present(defaultFramebufferObject());
@@ -128,41 +128,45 @@ void SceneWidget::beginFrame() {
 void SceneWidget::continueFrame() {
   const QSize size_px = sizePxOf(*this);
   const auto drawn =
-      pipeline_->step(defaultFramebufferObject(), size_px.width(), size_px.height(), FrameSteps::kBudgetMs);
+      pipeline_->step(defaultFramebufferObject(), size_px.width(), size_px.height(), scenegraph::ViewPipeline::kStepMs);
   showProblem(drawn ? QString() : problemText(drawn.error()));
   if (!drawn) {
     steps_.at = At::Rest;
-  } else if (*drawn) {
+  } else if (*drawn == scenegraph::PictureStep::Whole) {
     steps_.at = At::Ready;
   } else {
-    turn_.ask();
+    steps_.at = *drawn == scenegraph::PictureStep::Waits ? At::Waiting : At::UnderWay;
+    if (steps_.at == At::UnderWay) {
+      turn_.ask();
+    }
   }
 }
 
-/// A turn of this view. Returns whether its frame goes on.
-bool SceneWidget::stepFrame() {
+/// A turn of this view.
+FrameTurn::Step SceneWidget::stepFrame() {
+  using enum FrameTurn::Step;
   if (steps_.at == At::Ready || (steps_.at == At::Rest && !steps_.is_wanted)) {
-    return false;
+    return Over;
   }
   const QWindow* const shown_in = window()->windowHandle();
   if (!is_context_usable_ || isLent() || !isVisible() || shown_in == nullptr || !shown_in->isExposed()) {
-    if (std::exchange(steps_.at, At::Rest) == At::UnderWay) {
+    if (std::exchange(steps_.at, At::Rest) != At::Rest) {
       steps_.is_wanted = true;  // what shows the view again asks for a frame
       requestTick();
     }
-    return false;
+    return Over;
   }
   makeCurrent();
-  if (steps_.at == At::UnderWay) {
-    continueFrame();
-  } else {
+  if (steps_.at == At::Rest) {
     beginFrame();
+  } else {
+    continueFrame();
   }
   doneCurrent();
   if (steps_.at == At::Ready) {
     QOpenGLWidget::update();
   }
-  return steps_.at == At::UnderWay;
+  return steps_.at == At::Waiting ? Waits : steps_.at == At::UnderWay ? GoesOn : Over;
 }
 
 void SceneWidget::endFrame() {

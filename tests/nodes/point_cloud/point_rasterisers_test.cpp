@@ -234,7 +234,7 @@ class PointStageSteps : public ScenePictureTest {
   }
   static std::vector<unsigned char> colors(scenegraph::PointStage& stage) {
     const auto* const texture = dynamic_cast<osg::Texture*>(
-        stage.picture().getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+        stage.picture().getChild(0)->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
     const osg::Image* const image = texture->getImage(0);
     return {image->data(), image->data() + image->getTotalSizeInBytes()};
   }
@@ -275,7 +275,10 @@ class NotingDrawer final : public scenegraph::PointDrawer {
   explicit NotingDrawer(std::vector<scenegraph::PassRange>& asked) : asked_(asked) {}
   std::size_t begin(const scenegraph::PointCollection& /*points*/, int /*width*/, int /*height*/) override { return 0; }
   void draw(const scenegraph::PassRange& passes) override { asked_.push_back(passes); }
-  std::size_t resolve(const scenegraph::PointShading& /*shading*/) override { return 0; }
+  std::size_t resolve(const scenegraph::PointShading& /*shading*/, const glm::vec4& /*background*/) override {
+    return 0;
+  }
+  [[nodiscard]] bool needsContext() const noexcept override { return false; }
   [[nodiscard]] const char* name() const noexcept override { return "noting"; }
   [[nodiscard]] osg::Texture2D& colorTexture() noexcept override { return *color_; }
   [[nodiscard]] osg::Texture2D& depthTexture() noexcept override { return *depth_; }

@@ -72,8 +72,8 @@ class PictureSteps : public ::testing::Test {
   [[nodiscard]] int inSteps(double budget_ms = 0.0) {
     for (int steps = 1; steps < 10'000; ++steps) {
       const auto drawn = pipeline_->step(output_->id(), kWidth, kHeight, budget_ms);
-      if (!drawn || *drawn) {
-        EXPECT_TRUE(drawn);
+      if (drawn != PictureStep::More) {
+        EXPECT_EQ(drawn, PictureStep::Whole);
         return steps;
       }
     }
@@ -118,9 +118,9 @@ TEST_F(PictureSteps, BlendedThingsBeyondTheRoomForThemComeInBandsAsWell) {
 TEST_F(PictureSteps, OtherThingsThatAreBlendedMeanwhileEndWithThePicture) {
   addPanes(6);
   const Pixels at_once = atOnce();
-  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), false);
-  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), false);
-  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), false);
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), PictureStep::More);
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), PictureStep::More);
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), PictureStep::More);
   EXPECT_TRUE(atOnce() == at_once) << "what was begun is left";
   EXPECT_GT(inSteps(), 6);
   EXPECT_TRUE(read() == at_once);

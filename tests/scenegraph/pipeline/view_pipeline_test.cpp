@@ -267,7 +267,7 @@ TEST_F(ViewPipelineTest, DrawsInStepsWhatItDrawsAtOnce) {
   const Names passes = pipeline_->passes();
   const auto in_steps = [&](double budget_ms) {
     int steps = 1;
-    for (auto drawn = pipeline_->step(output.id(), 64, 48, budget_ms); drawn && !*drawn; ++steps) {
+    for (auto drawn = pipeline_->step(output.id(), 64, 48, budget_ms); drawn == PictureStep::More; ++steps) {
       EXPECT_EQ(picture(), at_once) << "nothing is shown before all is drawn";
       drawn = pipeline_->step(output.id(), 64, 48, budget_ms);
     }
@@ -280,9 +280,9 @@ TEST_F(ViewPipelineTest, DrawsInStepsWhatItDrawsAtOnce) {
   EXPECT_EQ(in_steps(1e6), 1);
 
   // What was begun is left for a picture of another size, and for one that is drawn at once.
-  ASSERT_EQ(pipeline_->step(output.id(), 64, 48, 0.0), false);
-  ASSERT_EQ(pipeline_->step(output.id(), 32, 24, 1e6), true);
-  ASSERT_EQ(pipeline_->step(output.id(), 64, 48, 0.0), false);
+  ASSERT_EQ(pipeline_->step(output.id(), 64, 48, 0.0), PictureStep::More);
+  ASSERT_EQ(pipeline_->step(output.id(), 32, 24, 1e6), PictureStep::Whole);
+  ASSERT_EQ(pipeline_->step(output.id(), 64, 48, 0.0), PictureStep::More);
   present(output);
   EXPECT_EQ(picture(), at_once);
   EXPECT_GE(in_steps(0.0), 5);

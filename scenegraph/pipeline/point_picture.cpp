@@ -1,0 +1,33 @@
+#include "scenegraph/pipeline/point_picture.h"
+
+#include <osg/RenderInfo>
+#include <osg/State>
+
+#include "scenegraph/pipeline/gl_target.h"
+
+namespace stillframe::scenegraph {
+
+PointPicture::PointPicture(const PointDrawer& drawer) : drawer_(drawer) {
+  setUseDisplayList(false);
+  setUseVertexBufferObjects(false);
+  setCullingActive(false);
+}
+
+void PointPicture::drawImplementation(osg::RenderInfo& info) const {
+  const PointPixels pixels = drawer_.pixels();
+  const auto idOf = [&](const osg::Texture* texture) {
+    const auto* const object = texture == nullptr ? nullptr : texture->getTextureObject(info.getContextID());
+    return object == nullptr ? 0U : object->id();
+  };
+  const std::uint32_t color = idOf(targets_.color);
+  const std::uint32_t depth = idOf(targets_.depth);
+  const int width_px = targets_.color == nullptr ? 0 : targets_.color->getTextureWidth();
+  const int height_px = targets_.color == nullptr ? 0 : targets_.color->getTextureHeight();
+  const auto count = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+  if (color != 0 && depth != 0 && count > 0 && pixels.depths.size() == count) {
+    info.getState()->unbindPixelBufferObject();
+    gl::writePixels(color, depth, width_px, height_px, pixels.rgba.data(), pixels.depths.data());
+  }
+}
+
+}  // namespace stillframe::scenegraph

@@ -76,6 +76,47 @@ TEST_F(CameraBarTest, ANarrowBarSaysThatThereIsMoreInTheThemesColour) {
   EXPECT_GT(drawn, 50);
 }
 
+TEST_F(CameraBarTest, WhatANarrowBarCutsOffIsInTheMenuOfItsExtension) {
+  panel_.resize(420, 500);
+  settle();
+  auto* const more = bar().findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+  ASSERT_NE(more->menu(), nullptr);
+  EXPECT_TRUE(more->isEnabled());
+  ASSERT_FALSE(bar().follows().isVisible());
+  const auto open = [&] { Q_EMIT more->menu()->aboutToShow(); };
+  const auto find = [](const QMenu& menu, const QString& text) -> QAction* {
+    for (QAction* const action : menu.actions()) {
+      if (action->text().remove('&') == text) {
+        return action;
+      }
+    }
+    ADD_FAILURE() << text.toStdString();
+    return menu.actions().constFirst();
+  };
+  open();
+  ASSERT_NE(find(*more->menu(), QStringLiteral("Follow"))->menu(), nullptr);
+  find(*find(*more->menu(), QStringLiteral("Follow"))->menu(), QStringLiteral("Heading"))->trigger();
+  EXPECT_EQ(panel_.view().camera().follow().mode(), FollowMode::Heading);
+  open();
+  EXPECT_TRUE(find(*find(*more->menu(), QStringLiteral("Follow"))->menu(), QStringLiteral("Heading"))->isChecked());
+  find(*find(*more->menu(), QStringLiteral("Display frame"))->menu(), QStringLiteral("base_link"))->trigger();
+  EXPECT_EQ(panel_.view().camera().displayFrame(), "base_link");
+  EXPECT_EQ(find(*more->menu(), QStringLiteral("Views"))->menu(), &bar().views());
+}
+
+TEST_F(CameraBarTest, TheExtensionOpensWhereTheSavedViewsAloneAreCutOff) {
+  auto* const more = bar().findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+  auto* const views = bar().findChild<QToolButton*>(QStringLiteral("views"));
+  ASSERT_TRUE(views->isVisible());
+  for (int width = panel_.width(); views->isVisible() && width > 400; width -= 4) {
+    panel_.resize(width, 500);
+    settle();
+  }
+  ASSERT_TRUE(bar().displayFrame().isVisible());
+  EXPECT_TRUE(more->isVisible());
+  EXPECT_TRUE(more->isEnabled());
+}
+
 TEST_F(CameraBarTest, DisplayFrameIsChosenApartFromTheFixedFrame) {
   EXPECT_EQ(bar().displayFrame().currentText(), QStringLiteral("auto (map)"));
   bar().displayFrame().lineEdit()->selectAll();

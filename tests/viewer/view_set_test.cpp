@@ -186,6 +186,9 @@ TEST_F(ViewSetTest, ViewIsDraggedBetweenWindows) {
   EXPECT_TRUE(drop(ViewArea::token(away), *views()[0], 0.1, 0.5));
   EXPECT_TRUE(set().windows().empty()) << "the window goes with its last view";
   EXPECT_TRUE(isDrawn(away));
+  EXPECT_TRUE(QTest::qWaitForWindowActive(window_.get())) << "keys would go nowhere";
+  EXPECT_EQ(&set().active(), &away);
+  EXPECT_TRUE(away.view().hasFocus());
 }
 
 TEST_F(ViewSetTest, DropsOfOthersAreRefused) {

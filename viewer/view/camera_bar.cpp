@@ -25,6 +25,18 @@ QComboBox* makeCombo(QToolBar& bar, const QString& name, const QString& tip, con
   return combo;
 }
 
+/// The entries of a list that is cut off: choosing one is as choosing it in the list.
+void addEntries(QComboBox& list, const QString& title, QMenu& menu) {
+  QMenu* const entries = menu.addMenu(title);
+  entries->setStyleSheet(QStringLiteral("QMenu { menu-scrollable: 1; }"));  // there may be hundreds of frames
+  for (int i = 0; i < list.count(); ++i) {
+    QAction* const entry = entries->addAction(list.itemText(i).replace('&', QStringLiteral("&&")));
+    entry->setCheckable(true);
+    entry->setChecked(i == list.currentIndex());
+    QObject::connect(entry, &QAction::triggered, &list, [&list, i] { Q_EMIT list.activated(i); });
+  }
+}
+
 QString nameOf(const scenegraph::SavedView& view) { return QString::fromStdString(view.name); }
 
 }  // namespace
@@ -43,13 +55,11 @@ CameraBar::CameraBar(SceneWidget& view, QWidget* parent) : QToolBar(parent), vie
   recenter_ = addAction(transportIcon(TransportIcon::Target), tr("Bring the display frame to the middle, upright (R)"));
   recenter_->setObjectName(QStringLiteral("recenterFrame"));
   views_ = new QMenu(tr("Views"), this);
-  auto* button = new QToolButton(this);
+  views_->menuAction()->setToolTip(tr("Saved views, smooth moves, help"));
+  addAction(views_->menuAction());  // no widget: Qt disables an extension that has nothing but widgets
+  auto* const button = qobject_cast<QToolButton*>(widgetForAction(views_->menuAction()));
   button->setObjectName(QStringLiteral("views"));
-  button->setText(tr("Views"));
-  button->setToolTip(tr("Saved views, smooth moves, help"));
-  button->setMenu(views_);
   button->setPopupMode(QToolButton::InstantPopup);
-  addWidget(button);
   // The style's own is black in any theme.
   if (auto* const more = findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"))) {
     more->setIcon(transportIcon(TransportIcon::More));
@@ -98,6 +108,41 @@ void CameraBar::refresh() {
     display_frame_->setFrames(buffer.frames());
   }
   display_frame_->setCurrent(view_.camera().displayFrame(), scene->fixedFrame());
+}
+
+/// Qt moves no widget into the extension's menu.
+void CameraBar::resizeEvent(QResizeEvent* event) {
+  QToolBar::resizeEvent(event);
+  auto* const extension = findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+  if (extension != nullptr && (more_ == nullptr || extension->menu() != more_)) {
+    delete more_;
+    more_ = new QMenu(this);
+    connect(more_, &QMenu::aboutToShow, this, &CameraBar::fillMore);
+    extension->setMenu(more_);
+  }
+}
+
+void CameraBar::fillMore() {
+  for (QMenu* const entries : more_->findChildren<QMenu*>(Qt::FindDirectChildrenOnly)) {
+    delete entries;
+  }
+  more_->clear();
+  for (QAction* const action : actions()) {
+    QWidget* const widget = widgetForAction(action);
+    if (widget->isVisible()) {
+      continue;
+    }
+    auto* const list = qobject_cast<QComboBox*>(widget);
+    if (list == nullptr) {
+      more_->addAction(action);
+    } else {
+      addEntries(*list,
+                 list == kinds_     ? tr("&Camera")
+                 : list == follows_ ? tr("&Follow")
+                                    : tr("&Display frame"),
+                 *more_);
+    }
+  }
 }
 
 void CameraBar::fillViews() {

@@ -11,8 +11,8 @@ namespace stillframe::viewer {
 class FramePicker;
 class SceneWidget;
 
-/// Camera model, display frame, follow mode, recenter and saved views of one view; what does not fit goes into the
-/// tool bar's extension. Every control has a key in the view, too. GUI thread.
+/// Camera model, display frame, follow mode, recenter and saved views of one view; what does not fit is in the menu of
+/// the tool bar's extension, lists as menus of their entries. Every control has a key in the view, too. GUI thread.
 class CameraBar : public QToolBar {
   Q_OBJECT
 
@@ -26,7 +26,11 @@ class CameraBar : public QToolBar {
   [[nodiscard]] FramePicker& displayFrame() noexcept { return *display_frame_; }
   [[nodiscard]] QMenu& views() noexcept { return *views_; }
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  void fillMore();
   void showCamera();
   void fillViews();
   void askForName();
@@ -37,6 +41,7 @@ class CameraBar : public QToolBar {
   FramePicker* display_frame_ = nullptr;
   QAction* recenter_ = nullptr;
   QMenu* views_ = nullptr;
+  QMenu* more_ = nullptr;  ///< the extension's, filled with what is cut off when it opens
 };
 
 }  // namespace stillframe::viewer

@@ -199,8 +199,9 @@ void ViewSet::drag(ViewPanel& panel) {
 
 void ViewSet::onDropped(const QByteArray& token, ViewPanel& beside, Side side) {
   const auto dragged = std::ranges::find_if(views_, [&](ViewPanel* of) { return ViewArea::token(*of) == token; });
-  if (dragged != views_.end()) {
-    move(**dragged, beside, side);
+  if (dragged != views_.end() && move(**dragged, beside, side)) {
+    (*dragged)->activateWindow();  // the one it came from may have had the focus, and be gone
+    (*dragged)->view().setFocus();
   }
 }
 

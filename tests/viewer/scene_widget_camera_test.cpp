@@ -4,8 +4,10 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QTest>
+#include <QThread>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <osg/NodeCallback>
 
 #include "tests/viewer/shown_widget.h"
 #include "tests/viewer/viewer_support.h"
@@ -199,6 +201,25 @@ TEST_F(WidgetCameraTest, SmoothMovesEndExactlyWhereTheOthersDo) {
   const auto rested = widget_.framesDrawn();
   settle();
   EXPECT_EQ(widget_.framesDrawn(), rested) << "idle again";
+}
+
+TEST_F(WidgetCameraTest, ASmoothMoveEndsThoughOneFrameTakesLongerThanAllOfIt) {
+  struct SlowCull : osg::NodeCallback {
+    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+      QThread::msleep(400);
+      traverse(node, visitor);
+    }
+  };
+  goTo(9_s);
+  widget_.setSmoothMoves(true);
+  const auto before = widget_.framesDrawn();
+  widget_.scene()->root().setCullCallback(new SlowCull);
+  widget_.frameOrigin("lidar");
+  EXPECT_TRUE(waitFor([&] {
+    QCoreApplication::processEvents();
+    return widget_.framesDrawn() >= before + 2;
+  })) << "the first shows the camera on its way";
+  widget_.scene()->root().setCullCallback(nullptr);
 }
 
 TEST_F(WidgetCameraTest, WhatIsRestoredStaysWhenTheLastDataBringsAnotherFixedFrame) {

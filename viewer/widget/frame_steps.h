@@ -22,6 +22,7 @@ struct FrameSteps {
   bool is_blank = true;       ///< the framebuffer is new: nothing is in it
   bool is_whole = false;      ///< somebody waits for the next frame
   bool has_put_tick = false;  ///< a tick was put off: the scene stands still meanwhile
+  bool is_moving = false;     ///< the camera is on its way in the frame that is drawn: its end is another picture
   QSize shown_px;             ///< of the whole frame that is shown
 };
 

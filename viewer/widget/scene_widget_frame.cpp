@@ -97,7 +97,9 @@ void SceneWidget::beginFrame() {
   }
   const QSize size_px = sizePxOf(*this);
   walk();
-  const scenegraph::CameraView view = shownView();
+  const double begun_s = now();
+  const scenegraph::CameraView view = camera_.view(begun_s);
+  steps_.is_moving = camera_.isMoving(begun_s);
   if (scene_ != nullptr) {
     const QSizeF size = QSizeF(this->size()) * devicePixelRatioF();
     scene_->setView(view, {size.width(), size.height(), devicePixelRatioF()});
@@ -177,7 +179,7 @@ void SceneWidget::endFrame() {
   ++frames_drawn_;
   showProgress();
   picker_->place();
-  if (keys_.isWalking() || camera_.isMoving(now()) || pointShare() < 1.0) {
+  if (keys_.isWalking() || steps_.is_moving || pointShare() < 1.0) {
     update();
   } else if (steps_.is_wanted) {
     askForFrame();  // while this one was drawn

@@ -72,7 +72,15 @@ void GlyphCanvas::blend(int x, int y, const PixelColor& color, double share) {
 }
 
 osgText::Glyph* GlyphCanvas::glyph(unsigned code, double height) {
-  return font_->getGlyph(osgText::FontResolution(rowsOf(height), rowsOf(height)), code);
+  osgText::Font* font = font_.get();
+  if (isEastAsian(code)) {
+    if (!has_looked_east_) {
+      east_asian_ = findEastAsianFont();  // OSG keeps what it has read
+      has_looked_east_ = true;
+    }
+    font = east_asian_.valid() ? east_asian_.get() : font;
+  }
+  return font->getGlyph(osgText::FontResolution(rowsOf(height), rowsOf(height)), code);
 }
 
 double GlyphCanvas::textWidth(std::string_view utf8, double height) {

@@ -19,7 +19,9 @@ struct PixelColor {
 };
 
 /// A small picture that rectangles and lines of text are drawn into, without OpenGL and without Qt: what a window and a
-/// picture file show alike. Colours are mixed as they are encoded, as other user interfaces do. GUI thread.
+/// picture file show alike. Colours are mixed as they are encoded, as other user interfaces do. Each character is drawn
+/// by a font that has it, one after the other from left to right: letters are not joined as Arabic joins them, which
+/// takes a shaper that OSG does not have. GUI thread.
 class GlyphCanvas {
  public:
   /// Transparent at first.
@@ -52,6 +54,8 @@ class GlyphCanvas {
   int height_ = 0;
   std::vector<std::uint8_t> pixels_;
   osg::ref_ptr<osgText::Font> font_;
+  osg::ref_ptr<osgText::Font> east_asian_;  // none before the first such character
+  bool has_looked_east_ = false;
 };
 
 }  // namespace stillframe::nodes

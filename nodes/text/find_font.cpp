@@ -32,6 +32,11 @@ osg::ref_ptr<osgText::Font> findEastAsianFont() {
       {"/usr/share/fonts/truetype/wqy/wqy-microhei.ttc", "/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc"});
 }
 
+bool isEastAsian(unsigned code) noexcept {
+  return (code >= 0x2E80 && code <= 0x9FFF) || (code >= 0xAC00 && code <= 0xD7FF) ||
+         (code >= 0xF900 && code <= 0xFAFF) || (code >= 0xFF00 && code <= 0xFFFF) || code >= 0x20000;
+}
+
 bool isEastAsian(std::string_view utf8) noexcept {
   // By the first bytes of what UTF-8 makes of U+2E80 to U+9FFF, U+AC00 to U+D7FF, U+F900 to U+FAFF, U+FF00 to U+FFFF
   // and the planes of ideographs from U+20000 on.

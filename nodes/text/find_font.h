@@ -13,7 +13,10 @@ namespace stillframe::nodes {
 /// Reads a file of megabytes: ask once.
 [[nodiscard]] osg::ref_ptr<osgText::Font> findEastAsianFont();
 
-/// Whether a text holds characters of Chinese, Japanese or Korean, which findFont() has not.
+/// Whether a character, by its number in Unicode, is of Chinese, Japanese or Korean, which findFont() has not.
+[[nodiscard]] bool isEastAsian(unsigned code) noexcept;
+
+/// Whether a text holds such characters.
 [[nodiscard]] bool isEastAsian(std::string_view utf8) noexcept;
 
 }  // namespace stillframe::nodes

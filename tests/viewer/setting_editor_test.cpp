@@ -12,6 +12,7 @@
 #include <QTest>
 #include <QTreeWidget>
 #include <QWheelEvent>
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -226,6 +227,27 @@ TEST_F(RangeEditorTest, AnEndIsDraggedInTheHistogram) {
   QTest::mousePress(&strip, Qt::LeftButton, {}, at(4.0));
   QTest::mouseMove(&strip, at(5.0));
   EXPECT_TRUE(heard.empty()) << "nothing is taken hold of between the ends";
+}
+
+TEST_F(RangeEditorTest, ADraggedEndHasNoMoreDigitsThanPixelsTell) {
+  editor.show();
+  RangeStrip& strip = editor.strip();
+  for (const auto& [left, right, most] :
+       {std::tuple{0.0, 190.0, 4}, {-1e-7, 3e-7, 4}, {1e9, 1e9 + 1.0, 13}, {-3e12, 7e12, 5}, {1e18, 1e18 + 1e5, 19}}) {
+    editor.setLegend(scenegraph::ColorLegend{.title = "", .unit = "", .low = left, .high = right, .colors = {{}, {}}});
+    const double pixel = (right - left) / (strip.width() - 10);
+    const QPoint from(static_cast<int>(strip.xOf(left)), strip.height() / 2);
+    QTest::mousePress(&strip, Qt::LeftButton, {}, from);
+    QTest::mouseMove(&strip, from + QPoint(31, 0));
+    QTest::mouseRelease(&strip, Qt::LeftButton, {}, from + QPoint(31, 0));
+    const std::string& text = heard["range_min"];
+    EXPECT_NEAR(std::stod(text), left + 31.0 * pixel, 0.51 * pixel + 256.0 * (left == 1e18)) << text;
+    const auto digits =
+        std::count_if(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(text.find('e'), text.size())),
+                      [](char c) { return c >= '0' && c <= '9'; });
+    EXPECT_LE(digits, most) << text;
+    heard.clear();
+  }
 }
 
 TEST_F(RangeEditorTest, EndsBeyondAllSenseAreShownAtTheRim) {

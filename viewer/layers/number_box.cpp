@@ -6,6 +6,14 @@
 
 namespace stillframe::viewer {
 
+double roundedTo(double value, double range) {
+  const double unit = std::pow(10.0, std::floor(std::log10(range)) - 3.0);
+  const double count = std::round(value / unit);
+  constexpr double kMostCount = 1e14;  // beyond, the digits of a double do not reach down to the unit
+  return std::isnormal(unit) && std::abs(count) < kMostCount ? QString::number(count * unit, 'g', 15).toDouble()
+                                                             : value;
+}
+
 NumberBox::NumberBox(double lowest, double highest, QWidget* parent) : QDoubleSpinBox(parent) {
   setKeyboardTracking(false);
   setDecimals(323);  // beyond it a double has no digits: QDoubleSpinBox then rounds nothing

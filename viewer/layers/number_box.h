@@ -20,6 +20,9 @@ class NumberBox : public QDoubleSpinBox {
   [[nodiscard]] QString digits(const QString& text) const;
 };
 
+/// To four digits of the range, as far as a double has them: what is dragged in pixels is no more exact.
+[[nodiscard]] double roundedTo(double value, double range);
+
 /// What a number box and a slider without bounds reach to.
 inline constexpr double kLargestNumber = 1e300;
 

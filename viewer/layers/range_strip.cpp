@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/layers/number_box.h"
+
 namespace stillframe::viewer {
 namespace {
 
@@ -66,7 +68,9 @@ double RangeStrip::xOf(double value) const {
 
 double RangeStrip::valueAt(double x) const {
   const double t = std::clamp((x - kMargin) / std::max(1.0, width() - 2 * kMargin), 0.0, 1.0);
-  return left_ + t * (right_ - left_);
+  const bool is_end = t <= 0.0 || t >= 1.0;
+  const double value = t >= 1.0 ? right_ : left_ + t * (right_ - left_);
+  return is_end ? value : std::clamp(roundedTo(value, right_ - left_), left_, right_);
 }
 
 void RangeStrip::paintEvent(QPaintEvent* /*event*/) {

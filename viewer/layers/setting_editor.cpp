@@ -42,12 +42,6 @@ T valueOr(const SettingSpec& spec, const std::string& text, T fallback) {
   return typed == nullptr ? fallback : *typed;
 }
 
-/// To four digits of the range: what a slider says is no more exact than its steps.
-double roundedTo(double value, double range) {
-  const double unit = std::pow(10.0, std::floor(std::log10(range)) - 3.0);
-  return QString::number(std::round(value / unit) * unit, 'g', 12).toDouble();
-}
-
 QTreeWidget* treeAround(const QWidget& part) {
   for (QWidget* above = part.parentWidget(); above != nullptr && !above->isWindow(); above = above->parentWidget()) {
     if (auto* const tree = qobject_cast<QTreeWidget*>(above)) {

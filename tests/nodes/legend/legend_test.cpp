@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "nodes/legend/glyph_canvas.h"
 #include "nodes/legend/legend_picture.h"
 #include "nodes/registry.h"
 #include "scenegraph/layer_cost.h"
@@ -65,6 +66,19 @@ TEST(LegendPicture, WritesNameValuesAndUnit) {
   const int all = inked(drawLegends(std::vector{blueToRed("/lidar/points")}, 1.0, 1000));
   EXPECT_GT(numbers, 20);
   EXPECT_GT(all, numbers + 100);
+}
+
+TEST(LegendPicture, WritesCharactersOfChineseJapaneseAndKorean) {
+  // What a font does not have it draws as one box, whatever the character is.
+  const auto named = [](const char* name) { return drawLegends(std::vector{blueToRed(name)}, 1.0, 1000).rgba; };
+  for (const auto& [one, other] :
+       {std::pair{"激光", "点云"}, std::pair{"デプス", "センサ"}, std::pair{"거리", "센서"}}) {
+    EXPECT_NE(named(one), named(other)) << one;
+  }
+  EXPECT_NE(named("облако"), named("лазер!"));
+  GlyphCanvas canvas(10, 10);
+  EXPECT_GT(canvas.textWidth("激光", 12.0), 1.8 * 12.0 * 0.9) << "as wide as they are high";
+  EXPECT_LT(canvas.textWidth("激光", 12.0), 2.2 * 12.0);
 }
 
 TEST(LegendPicture, LeavesOutWhatHasNoRoomAndSaysSo) {

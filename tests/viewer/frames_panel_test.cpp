@@ -41,7 +41,7 @@ class FramesPanelTest : public testing::Test {
  protected:
   FramesPanelTest() {
     panel_.resize(420, 600);
-    panel_.setDataset(test::makeRobotDataset());
+    panel_.setDataset(dataset_);
     panel_.setTime(TimePoint{5_s});
     panel_.show();
     if (!QTest::qWaitForWindowExposed(&panel_)) {
@@ -52,6 +52,7 @@ class FramesPanelTest : public testing::Test {
                      [this](const FrameTree::Names& hidden) { edited_ = hidden; });
     QObject::connect(&panel_, &FrameTree::framePicked, &panel_, [this](const QString& frame) { picked_ = frame; });
   }
+  std::shared_ptr<scenegraph::Dataset> dataset_ = test::makeRobotDataset();
   FrameTree panel_;
   FrameTree::Names edited_;
   QString picked_;
@@ -63,6 +64,17 @@ TEST_F(FramesPanelTest, ABoxHidesItsFrameAndDoesNotMoveTheCamera) {
   EXPECT_EQ(picked_, QString());
   clickBox(panel_.tree(), *panel_.item("lidar"));
   EXPECT_TRUE(edited_.empty());
+}
+
+TEST_F(FramesPanelTest, RowsStayAsTheyWereLeftWhenFramesCome) {
+  panel_.tree().setCurrentItem(panel_.item("odom"));
+  panel_.item("base_link")->setExpanded(false);
+  ASSERT_TRUE(dataset_->transforms()->insert({.parent = "odom", .child = "camera", .stamp = TimePoint{5_s}}));
+  panel_.refreshNow();
+  ASSERT_NE(panel_.item("camera"), nullptr);
+  EXPECT_EQ(panel_.tree().currentItem(), panel_.item("odom"));
+  EXPECT_FALSE(panel_.item("base_link")->isExpanded());
+  EXPECT_TRUE(panel_.item("odom")->isExpanded());
 }
 
 TEST_F(FramesPanelTest, EnterOnAFrameShowsItsPoseToo) {

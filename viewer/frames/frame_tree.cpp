@@ -192,6 +192,13 @@ void FrameTree::rebuild() {
     return;
   }
   const QScopedValueRollback filling(is_filling_, true);
+  Names collapsed;  // what is live brings frames all the time: rows stay as they were left
+  for (const QTreeWidgetItem* const row : items_) {
+    if (!row->isExpanded() && row->childCount() > 0) {
+      collapsed.insert(nameOf(*row));
+    }
+  }
+  const std::string current = tree_->currentItem() == nullptr ? std::string() : nameOf(*tree_->currentItem());
   tree_->clear();
   items_.assign(count, nullptr);
   for (std::size_t id = 0; id < count; ++id) {
@@ -212,6 +219,12 @@ void FrameTree::rebuild() {
     }
   }
   tree_->expandAll();
+  for (QTreeWidgetItem* const row : items_) {
+    if (const std::string name = nameOf(*row); collapsed.contains(name) || name == current) {
+      row->setExpanded(!collapsed.contains(name));
+      tree_->setCurrentItem(name == current ? row : tree_->currentItem());
+    }
+  }
   parents_ = std::move(parents);
   more_->setVisible(names.size() > count);
   more_->setText(tr("and %1 more frames").arg(names.size() - count));

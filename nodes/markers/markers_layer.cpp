@@ -126,7 +126,8 @@ Status MarkersLayer::remark(tf::TimePoint time) const {
   if (state.totals.unsound + counts.left_out > 0) {
     return {StatusLevel::Warn, "PrimitivesLeftOut",
             base + howMany(state.totals.unsound + counts.left_out, "primitives") +
-                " are left out: poses or sizes that are not finite or beyond reach, wrong indices, or more than " +
+                " are left out: poses or sizes that are not finite or beyond reach, wrong indices, triangles without "
+                "area, or more than " +
                 std::to_string(RestParts::kMostTexts) + " texts"};
   }
   if (const auto failure = picture_->modelFailure()) {

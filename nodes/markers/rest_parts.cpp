@@ -6,6 +6,7 @@
 
 #include "nodes/markers/entity_shapes.h"
 #include "nodes/osg_math.h"
+#include "nodes/primitives/triangle_area.h"
 
 namespace stillframe::nodes {
 namespace {
@@ -87,7 +88,7 @@ void addAxes(const scenegraph::AxesPrimitive& axes, LineBuilder& out) {
   }
 }
 
-/// How many triangles could not be drawn.
+/// How many triangles could not be drawn, or show nothing where none of them has an area.
 std::size_t addTriangles(const TrianglePrimitive& triangles, TriangleDrawable& out) {
   const auto count = orderedCount(triangles);
   if (!count) {
@@ -95,6 +96,7 @@ std::size_t addTriangles(const TrianglePrimitive& triangles, TriangleDrawable& o
   }
   const tf::RigidTransform pose = soundPose(triangles.pose);
   std::size_t unsound = 0;
+  bool has_area = false;
   for (std::size_t i = 0; i + 2 < *count; i += 3) {
     std::array<glm::dvec3, 3> corners{};
     std::array<Color, 3> colors;
@@ -105,8 +107,9 @@ std::size_t addTriangles(const TrianglePrimitive& triangles, TriangleDrawable& o
     }
     // As RViz: colours of their own are shown as they are.
     unsound += out.add(corners, colors, triangles.colors.empty()) ? 0 : 1;
+    has_area = has_area || hasArea(corners[0], corners[1], corners[2]);
   }
-  return unsound;
+  return has_area ? unsound : *count / 3;
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "nodes/images/jpeg_reader.h"
 #include "nodes/images/png_reader.h"
 #include "nodes/markers/entity_shapes.h"
+#include "nodes/primitives/triangle_area.h"
 
 namespace stillframe::nodes {
 namespace {
@@ -66,11 +67,13 @@ TexturedTriangles texturedTriangles(const TrianglePrimitive& triangles, const Me
   const std::size_t count = std::min(triangles.points.size(), triangles.uvs.size());
   const auto first = std::ranges::find_if(triangles.points, isInReach);
   result.origin = first != triangles.points.end() ? *first : glm::dvec3(0.0);
+  bool has_area = false;
   for (std::size_t i = 0; i + 2 < count; i += 3) {
     const std::array corners{triangles.points[i], triangles.points[i + 1], triangles.points[i + 2]};
     if (!std::ranges::all_of(corners, isInReach)) {
       continue;
     }
+    has_area = has_area || hasArea(corners[0], corners[1], corners[2]);
     const glm::dvec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const double area = glm::length(across);
     const bool is_lit = triangles.colors.empty() && area > 0.0;
@@ -90,6 +93,11 @@ TexturedTriangles texturedTriangles(const TrianglePrimitive& triangles, const Me
     material.texture = 0;
   } else {
     result.failure = texture.error();
+  }
+  if (const std::size_t all = count / 3; !has_area && all > 0) {
+    result.failure = Status{StatusLevel::Warn, "MeshIncomplete",
+                            "none of its " + std::to_string(all) +
+                                " triangles can be seen: their corners are not finite, beyond reach or on one line"};
   }
   mesh.materials.push_back(std::move(material));
   mesh.submeshes.push_back({0, static_cast<std::uint32_t>(mesh.indices.size()), 0});

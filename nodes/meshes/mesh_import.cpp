@@ -16,6 +16,7 @@
 #include "nodes/images/jpeg_reader.h"
 #include "nodes/images/png_reader.h"
 #include "nodes/meshes/contained_files.h"
+#include "nodes/primitives/triangle_area.h"
 
 namespace stillframe::nodes {
 namespace {
@@ -48,8 +49,11 @@ class Builder {
     if (scene_.mRootNode != nullptr && !addNode(*scene_.mRootNode, up, 0)) {
       return std::unexpected("its nodes repeat or nest its meshes beyond what is drawn");
     }
-    if (mesh_.indices.empty()) {
+    if (mesh_.indices.empty() && dropped_ == 0) {
       return std::unexpected("there are no triangles in it");
+    }
+    if (!has_area_) {
+      return std::unexpected(whyEmpty());
     }
     if (dropped_ > 0) {
       remark(std::to_string(dropped_) + " triangles have vertices that are not finite");
@@ -63,6 +67,15 @@ class Builder {
     if (mesh_.remarks.size() < kMaxRemarks) {
       mesh_.remarks += (mesh_.remarks.empty() ? "" : "; ") + what;
     }
+  }
+
+  /// A file of triangles none of which covers a pixel.
+  [[nodiscard]] std::string whyEmpty() const {
+    const std::size_t flat = mesh_.triangleCount();
+    std::string why = "none of its " + std::to_string(flat + dropped_) + " triangles can be seen: ";
+    why += dropped_ > 0 ? std::to_string(dropped_) + " have vertices that are not finite" : "";
+    why += dropped_ > 0 && flat > 0 ? ", " : "";
+    return why + (flat > 0 ? std::to_string(flat) + " have no area" : "");
   }
 
   [[nodiscard]] float encoded(float value) const {
@@ -213,6 +226,10 @@ class Builder {
         ++dropped_;
         continue;
       }
+      if (!has_area_) {
+        const auto corner = [&](int k) { return glm::dvec3(mesh_.positions[first + face.mIndices[k]]); };
+        has_area_ = hasArea(corner(0), corner(1), corner(2));
+      }
       const auto base = static_cast<std::uint32_t>(first);
       mesh_.indices.push_back(base + face.mIndices[0]);
       mesh_.indices.push_back(base + face.mIndices[is_mirrored ? 2 : 1]);
@@ -261,6 +278,7 @@ class Builder {
   bool has_colors_ = false;
   std::map<std::string, std::int32_t> textures_;
   std::size_t dropped_ = 0;
+  bool has_area_ = false;  // of any triangle
   MeshData mesh_;
 };
 

@@ -142,10 +142,7 @@ void TfAxesLayer::changeVisible(bool visible) {
 
 void TfAxesLayer::clear() {
   for (const Shown& shown : shown_ | std::views::reverse) {
-    if (osg::MatrixTransform* const node = context_->frames.node(shown.name)) {
-      node->removeChild(shown.group);
-    }
-    context_->frames.release(shown.name);
+    context_->frames.unhang(shown.name, *shown.group);
   }
   shown_.clear();
   applied_.reset();
@@ -248,7 +245,7 @@ void TfAxesLayer::hang(Shown& shown) {
     shown.label = labels_.make(shown.name, settings_.label_height_px, settings_.label_color);
     shown.group->addChild(shown.label);
   }
-  context_->frames.acquire(shown.name).addChild(shown.group);
+  context_->frames.hang(shown.name, *shown.group);
 }
 
 void TfAxesLayer::poseLine(Shown& shown, tf::TimePoint time) {

@@ -290,6 +290,26 @@ TEST_F(MarkerPicture, SaysWhatItDoesNotDraw) {
   EXPECT_THAT(layer.status().message, HasSubstr("4 primitives"));
 }
 
+TEST_F(MarkerPicture, TrianglesThatAllLieOnALineAreToldAndOneAmongOthersIsNot) {
+  SceneEntity flat = entityIn("map", "flat");
+  flat.triangles.push_back({.pose = {},
+                            .points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 3, 0}, {3, 3, 0}, {3, 3, 0}},
+                            .color = kRed,
+                            .colors = {},
+                            .indices = {}});
+  SceneEntity sound = flat;
+  sound.triangles.front().points.insert(sound.triangles.front().points.end(), {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
+  open(datasetOf(sceneOf({flat})), "map");
+  const auto& layer = add("/markers");
+  EXPECT_EQ(drawnPixels(draw(1_s, fromAbove())), 0);
+  EXPECT_EQ(layer.status().code, "PrimitivesLeftOut");
+  EXPECT_THAT(layer.status().message, HasSubstr("2 primitives"));
+  open(datasetOf(sceneOf({sound})), "map");
+  const auto& other = add("/markers");
+  EXPECT_GT(drawnPixels(draw(1_s, fromAbove())), 100);
+  EXPECT_EQ(other.status().level, scenegraph::StatusLevel::Ok) << other.status().message;
+}
+
 TEST_F(MarkerPicture, NamesTheFrameThatCannotBePlacedAndDrawsTheRest) {
   SceneEntity lost = cube("lost", -5, 5, kRed);
   lost.frame_id = "nowhere";

@@ -69,6 +69,15 @@ TEST_F(TexturedTrianglesTest, LeavesOutTrianglesThatAreNowhereAndBoundsCoordinat
   EXPECT_TRUE(texturedTriangles(bad, loader_).mesh.positions.empty());
 }
 
+TEST_F(TexturedTrianglesTest, SaysThatNoneOfThemCanBeSeen) {
+  TrianglePrimitive flat = square();
+  flat.points.assign(6, glm::dvec3(1, 2, 3));
+  const auto failure = texturedTriangles(flat, loader_).failure;
+  ASSERT_TRUE(failure);
+  EXPECT_EQ(failure->code, "MeshIncomplete");
+  EXPECT_NE(failure->message.find("none of its 2 triangles"), std::string::npos) << failure->message;
+}
+
 TEST_F(TexturedTrianglesTest, ListsOfUnequalLengthsAreReadAsFarAsBothGo) {
   TrianglePrimitive odd = square();
   odd.uvs.resize(5);

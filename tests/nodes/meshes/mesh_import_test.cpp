@@ -96,6 +96,22 @@ TEST_F(MeshFormats, TrianglesThatAreNotFiniteAreLeftOutAndCounted) {
   EXPECT_NE((*mesh)->remarks.find("1 triangles"), std::string::npos) << (*mesh)->remarks;
 }
 
+TEST_F(MeshFormats, TrianglesOfWhichNoneCanBeSeenAreNoMesh) {
+  const std::string corners = "v 0 0 0\nv 1e-5 0 0\nv 0 1e-5 0\nv 3e-5 0 0\nv nan 0 0\n";
+  const auto refusal = [&](const std::string& faces) {
+    const auto mesh = load(corners + faces, "obj");
+    return mesh ? std::string("it is drawn") : mesh.error().message;
+  };
+  const auto has = [](const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; };
+  const std::string on_a_line = refusal("f 1 2 4\nf 1 4 2\n");
+  EXPECT_TRUE(has(on_a_line, "none of its 2 triangles can be seen: 2 have no area")) << on_a_line;
+  const std::string mixed = refusal("f 1 2 5\nf 1 2 4\n");
+  EXPECT_TRUE(has(mixed, "1 have vertices that are not finite, 1 have no area")) << mixed;
+  const std::string nowhere = refusal("f 1 2 5\n");
+  EXPECT_TRUE(has(nowhere, "1 have vertices that are not finite")) << nowhere;
+  EXPECT_EQ(refusal("f 1 2 4\nf 1 2 3\n"), "it is drawn") << "however small";
+}
+
 TEST_F(MeshFormats, FilesOutsideOfThePackageAreNotRead) {
   const test::FilesFolder files;
   files.add("secret.mtl", test::kMtl);

@@ -174,7 +174,21 @@ TEST_F(WidgetPickTest, PanelShowsCopiesAndRemoves) {
   widget_.setTime(TimePoint{2_s});
   settle();
   click(at(0.5, 0.5), Qt::ShiftModifier);
-  EXPECT_EQ(panel.measurements().topLevelItemCount(), 1);
+  ASSERT_EQ(panel.measurements().topLevelItemCount(), 1);
+  panel.measurements().topLevelItem(0)->setSelected(true);
+  QTest::keyClick(&panel.measurements(), Qt::Key_C, Qt::ControlModifier);
+  const QStringList parts = QApplication::clipboard()->text().split(QLatin1Char('\t'));
+  ASSERT_EQ(parts.size(), 10) << "the measurement alone, with its components and ends";
+  EXPECT_EQ(parts[0], QStringLiteral("distance"));
+  EXPECT_EQ(parts[7].toDouble(),
+            scenegraph::measureNow(*widget_.scene(), widget_.picks().measured()[0])->delta_in_fixed.z)
+      << "with all its digits";
+  panel.measurements().clearSelection();
+  panel.rows().topLevelItem(1)->setSelected(true);
+  QTest::keyClick(&panel.rows(), Qt::Key_C, Qt::ControlModifier);
+  EXPECT_EQ(QApplication::clipboard()->text(),
+            panel.rows().topLevelItem(1)->text(0) + QLatin1Char('\t') + panel.rows().topLevelItem(1)->text(1));
+  panel.rows().clearSelection();
   panel.findChild<QToolButton*>(QStringLiteral("removeMeasurement"))->click();
   EXPECT_EQ(panel.measurements().topLevelItemCount(), 0);
   EXPECT_TRUE(widget_.picks().measured().empty());

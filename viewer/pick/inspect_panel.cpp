@@ -8,7 +8,9 @@
 #include <QToolButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
+#include <utility>
 
+#include "scenegraph/settings.h"
 #include "viewer/pick/view_picks.h"
 #include "viewer/widget/scene_widget.h"
 
@@ -38,6 +40,17 @@ void setRow(QTreeWidget& table, int index, const QStringList& texts) {
       row.setToolTip(column, texts[column]);
     }
   }
+}
+
+/// For the clipboard, with all its digits.
+QString copyTextOf(const scenegraph::Measurement& of) {
+  const glm::dvec3& delta = of.delta_in_fixed;
+  QStringList parts;
+  for (const auto& [name, metres] : {std::pair("distance", of.length_m), std::pair("dx", delta.x),
+                                     std::pair("dy", delta.y), std::pair("dz", delta.z)}) {
+    parts << QLatin1String(name) << QString::fromStdString(scenegraph::settingText(metres));
+  }
+  return parts.join(QLatin1Char('\t'));
 }
 
 void dropRowsFrom(QTreeWidget& table, int count) {
@@ -71,6 +84,9 @@ InspectPanel::InspectPanel(QWidget* parent)
   remove_->setObjectName(QStringLiteral("removeMeasurement"));
   remove_->setToolTip(tr("Removes the distances chosen, or all (Delete)"));
   layout->addWidget(remove_);
+  for (QTreeWidget* const table : {rows_, measurements_}) {
+    table->installEventFilter(this);
+  }
   connect(copy_, &QToolButton::clicked, this, &InspectPanel::copy);
   connect(remove_, &QToolButton::clicked, this, &InspectPanel::removeMeasurements);
   refresh();
@@ -104,8 +120,8 @@ void InspectPanel::refresh() {
   }
   dropRowsFrom(*rows_, count);
   hint_->setVisible(picked == nullptr);
-  copy_->setEnabled(picked != nullptr);
   refreshMeasurements();
+  copy_->setEnabled(picked != nullptr || measurements_->topLevelItemCount() > 0);
 }
 
 void InspectPanel::refreshMeasurements() {
@@ -117,9 +133,11 @@ void InspectPanel::refreshMeasurements() {
       const auto nameOf = [](const scenegraph::PickResult& end) {
         return QString::fromStdString(end.topic + " " + end.picked.kind + " " + end.picked.id);
       };
-      setRow(*measurements_, count++,
+      setRow(*measurements_, count,
              {length ? QString::fromStdString(scenegraph::measurementText(*length)) : tr("no place now"),
               nameOf(pair.first), nameOf(pair.second)});
+      QTreeWidgetItem& row = *measurements_->topLevelItem(count++);
+      row.setData(0, Qt::UserRole, length ? copyTextOf(*length) : row.text(0));
     }
   }
   dropRowsFrom(*measurements_, count);
@@ -129,13 +147,19 @@ void InspectPanel::refreshMeasurements() {
 
 QString InspectPanel::copyText() const {
   QStringList lines;
-  const bool has_chosen = !rows_->selectedItems().isEmpty();
-  for (int i = 0; i < rows_->topLevelItemCount(); ++i) {
-    const QTreeWidgetItem& row = *rows_->topLevelItem(i);
-    if (row.isSelected() || !has_chosen) {
-      lines << row.text(0) + QLatin1Char('\t') + row.text(1);
+  const bool has_chosen = !rows_->selectedItems().isEmpty() || !measurements_->selectedItems().isEmpty();
+  const auto add = [&](const QTreeWidget& table, auto textOf) {
+    for (int i = 0; i < table.topLevelItemCount(); ++i) {
+      const QTreeWidgetItem& row = *table.topLevelItem(i);
+      if (row.isSelected() || !has_chosen) {
+        lines << textOf(row);
+      }
     }
-  }
+  };
+  add(*rows_, [](const QTreeWidgetItem& row) { return row.text(0) + QLatin1Char('\t') + row.text(1); });
+  add(*measurements_, [](const QTreeWidgetItem& row) {
+    return QStringList{row.data(0, Qt::UserRole).toString(), row.text(1), row.text(2)}.join(QLatin1Char('\t'));
+  });
   return lines.join(QLatin1Char('\n'));
 }
 
@@ -156,6 +180,15 @@ void InspectPanel::removeMeasurements() {
   for (const std::size_t index : gone) {  // from the end
     view_->picks().removeMeasurement(index);
   }
+}
+
+/// Of the tables: Qt's own would copy one cell.
+bool InspectPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->matches(QKeySequence::Copy)) {
+    copy();
+    return true;
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 void InspectPanel::keyPressEvent(QKeyEvent* event) {

@@ -21,13 +21,15 @@ class InspectPanel : public QWidget {
 
   /// The view to tell of from now on; nullptr: none.
   void setView(SceneWidget* view);
-  /// What Copy puts into the clipboard: a name, a tab and a text a line; of the lines chosen, or of all.
+  /// What Copy puts into the clipboard, of the lines chosen in either table, or of all: a name, a tab and a text a
+  /// line; a distance with its components and both its ends, with all their digits.
   [[nodiscard]] QString copyText() const;
   [[nodiscard]] QTreeWidget& rows() noexcept { return *rows_; }
   [[nodiscard]] QTreeWidget& measurements() noexcept { return *measurements_; }
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void refresh();

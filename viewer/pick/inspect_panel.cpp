@@ -87,6 +87,14 @@ InspectPanel::InspectPanel(QWidget* parent)
   for (QTreeWidget* const table : {rows_, measurements_}) {
     table->installEventFilter(this);
   }
+  // What is chosen in one table is what is meant: not a row of the other, too.
+  for (const auto& [one, other] : {std::pair(rows_, measurements_), std::pair(measurements_, rows_)}) {
+    connect(one, &QTreeWidget::itemSelectionChanged, other, [one, other] {
+      if (!one->selectedItems().isEmpty()) {
+        other->clearSelection();
+      }
+    });
+  }
   connect(copy_, &QToolButton::clicked, this, &InspectPanel::copy);
   connect(remove_, &QToolButton::clicked, this, &InspectPanel::removeMeasurements);
   refresh();

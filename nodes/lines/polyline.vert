@@ -1,6 +1,7 @@
 #version 450 compatibility
 #include "common.glsl"
 #include "coloring.glsl"
+#include "instances.glsl"
 // Segments of lines as rectangles on the screen, four vertices each, u_batch segments an instance. gl_Vertex only
 // carries the bound. In: u_points, metres in the source frame less the origin, and w = 4 * style + flags (1: the segment
 // that ends here is drawn, 2: a joint); u_styles, width and 1 when it is in metres; u_colors, sRGB; u_values. A segment
@@ -79,7 +80,7 @@ void main() {
   v_place = v_end = v_before = v_depths = v_values = vec2(0.0);
   v_radii = v_start_color = v_end_color = vec4(0.0);
 
-  int start = gl_InstanceID * u_batch + gl_VertexID / 4;
+  int start = sfInstance() * u_batch + gl_VertexID / 4;
   if (start + 1 >= u_point_count) {
     return;
   }

@@ -1,5 +1,6 @@
 #version 450 compatibility
 #include "common.glsl"
+#include "instances.glsl"
 // Copies of a mesh. In: gl_Vertex and gl_Normal of the mesh; u_instances, four texels a copy: three rows of the matrix
 // that places the mesh, then 0xrrggbb as a number (sRGB), alpha, taper, id. Taper t shrinks the end z = 0.5 of the mesh
 // to t below 1, and the end z = -0.5 to 2 - t above it. u_faces_viewer: a square in the
@@ -12,7 +13,7 @@ flat out vec4 v_color;
 flat out int v_is_mirrored;
 
 void main() {
-  int at = 4 * gl_InstanceID;
+  int at = 4 * sfInstance();
   vec4 x = texelFetch(u_instances, at);
   vec4 y = texelFetch(u_instances, at + 1);
   vec4 z = texelFetch(u_instances, at + 2);

@@ -1,6 +1,7 @@
 #version 450 compatibility
 #include "common.glsl"
 #include "coloring.glsl"
+#include "instances.glsl"
 // Voxels of a grid: an instance is a voxel, of which the three sides that may face the eye are drawn, four vertices each.
 // gl_Vertex only holds the bound. What is not seen leaves here with all its vertices in one place: voxels that fail the
 // test, sides that face away, and sides that touch a voxel which hides them. Uniforms: words of values (voxel_values.h
@@ -87,7 +88,7 @@ vec4 colorOf(int i, vec3 centre) {
 void main() {
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   v_color = vec4(0.0);
-  int i = u_is_listed ? int(texelFetch(u_list, gl_InstanceID).r) : gl_InstanceID;
+  int i = u_is_listed ? int(texelFetch(u_list, sfInstance()).r) : sfInstance();
   uint alpha = alphaOf(i);
   if (alpha == 0u || !passes(i)) {
     return;

@@ -1,6 +1,10 @@
 #include "scenegraph/pipeline/drawable_slices.h"
 
 #include <algorithm>
+#include <osg/Program>
+#include <osg/State>
+#include <osg/Uniform>
+#include <string>
 
 namespace stillframe::scenegraph {
 namespace {
@@ -21,13 +25,24 @@ std::optional<std::size_t> verticesOf(GLenum mode) {
   }
 }
 
-/// Slices of a set; none where it cannot be cut.
-std::optional<std::size_t> slicesOf(const osg::PrimitiveSet& set) {
+/// Instances that a slice has, of a set with so many vertices each.
+std::size_t instancesASlice(const osg::PrimitiveSet& set) {
+  const std::size_t primitives = set.getNumIndices() / verticesOf(set.getMode()).value_or(1);
+  return kPrimitivesASlice / std::clamp<std::size_t>(primitives, 1, kPrimitivesASlice);
+}
+
+bool isInstanced(const osg::PrimitiveSet& set) { return set.getNumInstances() > 1; }
+
+std::size_t slicesOf(const osg::PrimitiveSet& set) {
+  if (isInstanced(set)) {
+    const std::size_t step = instancesASlice(set);
+    return (static_cast<std::size_t>(set.getNumInstances()) + step - 1) / step;
+  }
   const auto vertices = verticesOf(set.getMode());
   const bool is_known = dynamic_cast<const osg::DrawArrays*>(&set) != nullptr ||
                         dynamic_cast<const osg::DrawElementsUInt*>(&set) != nullptr;
-  if (!vertices || !is_known || set.getNumInstances() > 0) {
-    return std::nullopt;
+  if (!vertices || !is_known) {
+    return 1;
   }
   const std::size_t step = *vertices * kPrimitivesASlice;
   return std::max<std::size_t>(1, (set.getNumIndices() + step - 1) / step);
@@ -38,12 +53,44 @@ osg::ref_ptr<osg::PrimitiveSet> cut(const osg::PrimitiveSet& set, std::size_t sl
   const std::size_t first = std::min<std::size_t>(slice * step, set.getNumIndices());
   const std::size_t count = std::min<std::size_t>(step, set.getNumIndices() - first);
   if (const auto* const indices = dynamic_cast<const osg::DrawElementsUInt*>(&set)) {
-    const auto begin = indices->begin() + static_cast<std::ptrdiff_t>(first);
-    return new osg::DrawElementsUInt(set.getMode(), begin, begin + static_cast<std::ptrdiff_t>(count));
+    return new osg::DrawElementsUInt(set.getMode(), static_cast<unsigned>(count), indices->asVector().data() + first,
+                                     set.getNumInstances());
   }
   const auto& arrays = dynamic_cast<const osg::DrawArrays&>(set);
-  return new osg::DrawArrays(set.getMode(), arrays.getFirst() + static_cast<GLint>(first), static_cast<GLsizei>(count));
+  return new osg::DrawArrays(set.getMode(), arrays.getFirst() + static_cast<GLint>(first), static_cast<GLsizei>(count),
+                             set.getNumInstances());
 }
+
+/// Draws some of the instances of a drawable's only set; nothing is copied.
+class SomeInstances : public osg::Drawable::DrawCallback {
+ public:
+  SomeInstances(osg::PrimitiveSet& set, std::size_t slice)
+      : set_(&set),
+        first_(static_cast<int>(slice * instancesASlice(set))),
+        count_(std::min(static_cast<int>(instancesASlice(set)), set.getNumInstances() - first_)) {}
+
+  void drawImplementation(osg::RenderInfo& render_info, const osg::Drawable* drawable) const override {
+    const osg::Program::PerContextProgram* const program = render_info.getState()->getLastAppliedProgramObject();
+    if (program == nullptr || program->getUniformLocation(std::string(kFirstInstance)) < 0) {
+      if (first_ == 0) {
+        drawable->drawImplementation(render_info);
+      }
+      return;
+    }
+    const int all = set_->getNumInstances();
+    set_->setNumInstances(count_);
+    program->apply(*osg::ref_ptr<osg::Uniform>(new osg::Uniform(kFirstInstance, first_)));
+    drawable->drawImplementation(render_info);
+    program->apply(*osg::ref_ptr<osg::Uniform>(new osg::Uniform(kFirstInstance, 0)));
+    set_->setNumInstances(all);
+  }
+
+ private:
+  static constexpr const char* kFirstInstance = "u_first_instance";
+  osg::ref_ptr<osg::PrimitiveSet> set_;
+  int first_;
+  int count_;
+};
 
 }  // namespace
 
@@ -53,14 +100,19 @@ std::size_t sliceCount(const osg::Drawable& drawable) {
       geometry->getNumPrimitiveSets() != 1) {
     return 1;
   }
-  return slicesOf(*geometry->getPrimitiveSet(0)).value_or(1);
+  return slicesOf(*geometry->getPrimitiveSet(0));
 }
 
 DrawableSlice::DrawableSlice(osg::Drawable& drawable, std::optional<std::size_t> slice) {
-  if (slice && sliceCount(drawable) > 1) {
-    geometry_ = drawable.asGeometry();
-    osg::Geometry::PrimitiveSetList& sets = geometry_->getPrimitiveSetList();
-    whole_ = sets;
+  if (!slice || sliceCount(drawable) < 2) {
+    return;
+  }
+  geometry_ = drawable.asGeometry();
+  osg::Geometry::PrimitiveSetList& sets = geometry_->getPrimitiveSetList();
+  whole_ = sets;
+  if (isInstanced(*whole_.front())) {
+    geometry_->setDrawCallback(new SomeInstances(*whole_.front(), *slice));
+  } else {
     sets = {cut(*whole_.front(), *slice)};
   }
 }
@@ -68,6 +120,7 @@ DrawableSlice::DrawableSlice(osg::Drawable& drawable, std::optional<std::size_t>
 DrawableSlice::~DrawableSlice() {
   if (geometry_ != nullptr) {
     geometry_->getPrimitiveSetList() = whole_;
+    geometry_->setDrawCallback(nullptr);
   }
 }
 

@@ -9,13 +9,16 @@
 namespace stillframe::scenegraph {
 
 /// In how many slices a drawable is drawn, one after the other; 1 for most. More where it has more than some ten
-/// thousand triangles, lines or points that are no instances. Together they draw what it draws, in the same order.
+/// thousand triangles, lines or points, or more instances of a few than that. Together they draw what it draws, in the
+/// same order.
 [[nodiscard]] std::size_t sliceCount(const osg::Drawable& drawable);
 
 /// As long as it lives a drawable draws one of its slices alone; all of it where none is named. Thread of the context
 /// only.
 ///
-/// Arrays and buffers stay as they are; indices are copied, which costs nothing beside drawing them in software.
+/// Arrays and buffers stay as they are; indices are copied, which costs nothing beside drawing them in software. Of
+/// instances some are drawn, with u_first_instance to say which (shaders/instances.glsl); a program without that cannot
+/// tell them apart, and draws them all in the first slice.
 class DrawableSlice {
  public:
   DrawableSlice(osg::Drawable& drawable, std::optional<std::size_t> slice);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <osg/MatrixTransform>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -200,15 +201,69 @@ TEST_F(PictureSteps, AStepEndsWithinALargeDrawable) {
   }
 }
 
-TEST_F(PictureSteps, InstancesAndStripsAreDrawnWhole) {
+/// Triangles of a sheet as so many instances of three of them, each told apart by its number alone.
+osg::ref_ptr<osg::Geode> makeCopies(int copies, const std::string& instance, const osg::Vec4& color) {
+  const osg::ref_ptr<osg::Geode> geode = makeSheet(3, false, color);
+  osg::Geometry& geometry = *geode->getDrawable(0)->asGeometry();
+  geometry.getPrimitiveSet(0)->setNumInstances(copies);
+  geometry.getOrCreateStateSet()->setAttributeAndModes(makeProgram("copies", R"(#version 450 compatibility
+uniform int u_first_instance;
+out vec4 v_color;
+void main() {
+  int i = )" + instance + R"(;
+  float at = float(i);
+  v_color = gl_Color * vec4(fract(at * 0.37), fract(at * 0.173), 1.0, 1.0);
+  gl_Position = gl_ModelViewProjectionMatrix *
+                (gl_Vertex + vec4(float(i % 200) * 0.01, float(i / 200) * 0.01, 0.2 * sin(at), 0.0));
+})",
+                                                                   kTestFragment));
+  return geode;
+}
+
+TEST_F(PictureSteps, AStepEndsWithinManyInstances) {
+  constexpr int kCopies = 25'000;  // three slices of three triangles each
+  root_->addChild(makeQuad(1, 1, -0.5F, {1, 0, 0, 1}));
+  const int without = inSteps();
+  for (const bool is_blended : {false, true}) {
+    const osg::ref_ptr<osg::Geode> copies =
+        makeCopies(kCopies, "u_first_instance + gl_InstanceID", {0.5F, 1, 0.4F, 0.5F});
+    osg::Geometry& geometry = *copies->getDrawable(0)->asGeometry();
+    setBlended(*copies->getOrCreateStateSet(), is_blended);
+    root_->addChild(copies);
+    const Pixels at_once = atOnce();
+    for (int round = 0; round < 2; ++round) {
+      EXPECT_EQ(inSteps(), without + 3 + (is_blended ? 1 : 0)) << is_blended;
+      EXPECT_TRUE(read() == at_once) << is_blended;
+      pipeline_->present(output_->id());
+    }
+    EXPECT_EQ(geometry.getPrimitiveSet(0)->getNumInstances(), kCopies) << "for picking and export it is what it was";
+    EXPECT_EQ(geometry.getDrawCallback(), nullptr);
+    EXPECT_TRUE(atOnce() == at_once) << "the number of the first one goes with its slice";
+    root_->removeChild(copies);
+  }
+}
+
+TEST_F(PictureSteps, InstancesThatAShaderCountsForItselfAreDrawnInTheFirstSlice) {
+  root_->addChild(makeCopies(25'000, "gl_InstanceID", {0.5F, 1, 0.4F, 1}));
+  const Pixels at_once = atOnce();
+  EXPECT_GT(inSteps(), 3);
+  EXPECT_TRUE(read() == at_once);
+}
+
+TEST_F(PictureSteps, AMillionInstancesTakeManySlicesAndStripsNone) {
   const osg::ref_ptr<osg::Geode> sheet = makeSheet(70'001, false, {0, 1, 0.4F, 1});
   const osg::ref_ptr<osg::PrimitiveSet> set = sheet->getDrawable(0)->asGeometry()->getPrimitiveSet(0);
   EXPECT_EQ(sliceCount(*sheet->getDrawable(0)), 3U);
-  set->setNumInstances(2);
-  EXPECT_EQ(sliceCount(*sheet->getDrawable(0)), 1U) << "the shader counts them from the first";
+  set->setNumInstances(1);
+  EXPECT_EQ(sliceCount(*sheet->getDrawable(0)), 3U);
+  set->setNumInstances(5);
+  EXPECT_EQ(sliceCount(*sheet->getDrawable(0)), 5U) << "a slice is an instance at least";
   set->setNumInstances(0);
   set->setMode(GL_TRIANGLE_STRIP);
   EXPECT_EQ(sliceCount(*sheet->getDrawable(0)), 1U);
+  const osg::ref_ptr<osg::Geode> copies = makeSheet(6, false, {0, 1, 0.4F, 1});
+  copies->getDrawable(0)->asGeometry()->getPrimitiveSet(0)->setNumInstances(1'000'000);
+  EXPECT_EQ(sliceCount(*copies->getDrawable(0)), 184U);
 }
 
 }  // namespace

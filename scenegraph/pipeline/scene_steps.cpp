@@ -51,6 +51,15 @@ bool SceneSteps::isNext() {
   return !is_used_up_;
 }
 
+/// False when the go ends before all are there: the next goes on with them.
+bool SceneSteps::hasTextures(const osgUtil::RenderLeaf& leaf, osg::RenderInfo& render_info) {
+  if (std::isfinite(budget_ms_)) {
+    is_used_up_ = !uploads_.bring(*leaf._parent, *render_info.getState(),
+                                  [this] { return millisecondsSince(start_) > budget_ms_; });
+  }
+  return !is_used_up_;
+}
+
 void SceneSteps::countDrawn() {
   if (waits_) {
     gl::finish();
@@ -66,6 +75,10 @@ void SceneSteps::drawPieces(Transparency& blended, osgUtil::RenderBin& bin, osg:
   seen_ += blended.pieces();
   const auto pieces = Transparency::piecesOf(bin, waits_);
   while (!blended.isDone() && isNext()) {
+    const osgUtil::RenderLeaf* const leaf = blended.nextLeaf(pieces);
+    if (leaf != nullptr && !hasTextures(*leaf, render_info)) {
+      return;
+    }
     blended.drawPiece(bin, pieces, render_info, previous);
     countDrawn();
   }
@@ -94,7 +107,7 @@ void SceneSteps::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& re
   const auto draw = [&](osgUtil::RenderLeaf* leaf) {
     const std::size_t slices = waits_ ? sliceCount(*leaf->_drawable) : 1;
     for (std::size_t slice = 0; slice < slices; ++slice) {
-      if (!isNext()) {
+      if (!isNext() || !hasTextures(*leaf, render_info)) {
         continue;
       }
       const DrawableSlice alone(*leaf->_drawable, slices == 1 ? std::nullopt : std::optional(slice));

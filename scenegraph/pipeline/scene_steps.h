@@ -9,6 +9,7 @@
 #include <osgUtil/RenderBin>
 #include <vector>
 
+#include "scenegraph/pipeline/texture_uploads.h"
 #include "scenegraph/pipeline/transparency.h"
 
 namespace stillframe::scenegraph {
@@ -17,7 +18,8 @@ namespace stillframe::scenegraph {
 ///
 /// A go ends with the drawable that uses its budget up, and before one that would, by what it took in the last picture:
 /// it lasts as long as the budget, or as the one drawable that takes longer; where OpenGL is waited for, a large one
-/// counts as several (DrawableSlice). The scene is culled in each; as long as nothing changes in it meanwhile, all goes
+/// counts as several (DrawableSlice), and so does one with a large texture that is new to OpenGL (TextureUploads). The
+/// scene is culled in each; as long as nothing changes in it meanwhile, all goes
 /// together draw what one would have drawn, in the same order. What is blended is drawn in pieces of its own
 /// (Transparency). Thread of the context only.
 // NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): OSG counts references
@@ -34,6 +36,8 @@ class SceneSteps : public osgUtil::RenderBin::DrawCallback {
   void adopt(osgUtil::CullVisitor& cull);
   void drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& render_info,
                           osgUtil::RenderLeaf*& previous) override;
+  /// Leaves what is being uploaded. The context must be current.
+  void release() { uploads_.drop(); }
 
  protected:
   ~SceneSteps() override = default;
@@ -42,10 +46,12 @@ class SceneSteps : public osgUtil::RenderBin::DrawCallback {
   void drawPieces(Transparency& blended, osgUtil::RenderBin& bin, osg::RenderInfo& render_info,
                   osgUtil::RenderLeaf*& previous);
   [[nodiscard]] bool isNext();
+  [[nodiscard]] bool hasTextures(const osgUtil::RenderLeaf& leaf, osg::RenderInfo& render_info);
   [[nodiscard]] double& costOf(std::size_t drawable);
   void countDrawn();
 
   std::map<const osgUtil::RenderBin*, osg::ref_ptr<osgUtil::RenderBin::DrawCallback>> others_;
+  TextureUploads uploads_;
   std::chrono::steady_clock::time_point start_;
   double budget_ms_ = std::numeric_limits<double>::infinity();
   bool waits_ = false;

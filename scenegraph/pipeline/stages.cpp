@@ -352,6 +352,7 @@ std::size_t Stages::lastOfSubFrame() const {
 void Stages::release(osg::State& state) {
   scene_camera_->removeChildren(0, scene_camera_->getNumChildren());  // the scene keeps its objects
   transparency_->release(state);
+  steps_->release();
   group_->releaseGLObjects(&state);
   group_->removeChildren(0, group_->getNumChildren());
   for (const auto& [name, target] : targets_) {

@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <osg/GraphicsContext>
+#include <osg/Image>
 #include <osg/MatrixTransform>
+#include <osg/Texture2D>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +18,7 @@
 #include "scenegraph/passes/antialiasing.h"
 #include "scenegraph/pipeline/drawable_slices.h"
 #include "scenegraph/pipeline/offscreen_context.h"
+#include "scenegraph/pipeline/texture_uploads.h"
 #include "scenegraph/pipeline/view_pipeline.h"
 #include "tests/scenegraph/pipeline/shader_scene.h"
 
@@ -199,6 +204,131 @@ TEST_F(PictureSteps, AStepEndsWithinALargeDrawable) {
       root_->removeChild(sheet);
     }
   }
+}
+
+/// A quad before everything with a texture of its own, whose texels all differ from their neighbours'.
+osg::ref_ptr<osg::Geode> makePoster(int width, int height, GLenum format, GLint internal_format) {
+  const osg::ref_ptr<osg::Image> image = new osg::Image;
+  image->allocateImage(width, height, 1, format, GL_UNSIGNED_BYTE, 1);
+  image->setInternalTextureFormat(internal_format);
+  for (unsigned i = 0; i < image->getTotalSizeInBytes(); ++i) {
+    image->data()[i] = static_cast<unsigned char>((i * 2654435761U) >> 24U);
+  }
+  const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+  texture->setInternalFormat(internal_format);
+  texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+  texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+  texture->setResizeNonPowerOfTwoHint(false);
+  const osg::ref_ptr<osg::Geode> geode = makeQuad(0.8F, 0.8F, 0.2F, {1, 1, 1, 1});
+  osg::StateSet& state = *geode->getDrawable(0)->getOrCreateStateSet();
+  state.setTextureAttribute(0, texture);
+  state.addUniform(new osg::Uniform("u_poster", 0));
+  state.setAttributeAndModes(makeProgram("poster", kTestVertex, R"(#version 450 compatibility
+uniform sampler2D u_poster;
+void main() { gl_FragColor = vec4(texture(u_poster, gl_FragCoord.xy / vec2(96.0, 72.0)).rgb, 0.7); }
+)"));
+  return geode;
+}
+
+osg::Texture2D& textureOf(osg::Geode& poster) {
+  return dynamic_cast<osg::Texture2D&>(
+      *poster.getDrawable(0)->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+}
+
+bool isUploaded(const osg::Texture2D& texture) {
+  bool is_there = false;
+  for (unsigned context = 0; context <= osg::GraphicsContext::getMaxContextID(); ++context) {
+    is_there = is_there || texture.getTextureObject(context) != nullptr;
+  }
+  return is_there;
+}
+
+TEST_F(PictureSteps, ALargeTextureIsUploadedInBandsAndDrawnWhenItIsWhole) {
+  const int without = inSteps();
+  for (const auto& [format, internal_format] : {std::pair<GLenum, GLint>{GL_RGBA, GL_RGBA8}, {GL_RED, GL_R8}}) {
+    for (const bool is_blended : {false, true}) {
+      constexpr int kEdge = 1999;  // bands do not divide it, nor four its rows
+      const auto at = [&](const osg::ref_ptr<osg::Geode>& poster) {
+        setBlended(*poster->getOrCreateStateSet(), is_blended);
+        root_->addChild(poster);
+      };
+      const auto first = makePoster(kEdge, kEdge, format, internal_format);
+      at(first);
+      const Pixels at_once = atOnce();
+      root_->removeChild(first);
+
+      const auto poster = makePoster(kEdge, kEdge, format, internal_format);
+      const auto bands =
+          static_cast<int>(textureOf(*poster).getImage()->getTotalSizeInBytes() / TextureUploads::kBandBytes);
+      at(poster);
+      EXPECT_FALSE(isUploaded(textureOf(*poster)));
+      EXPECT_GT(inSteps(), without + bands) << format << is_blended;
+      EXPECT_TRUE(isUploaded(textureOf(*poster)));
+      EXPECT_TRUE(read() == at_once) << format << is_blended;
+      pipeline_->present(output_->id());
+      EXPECT_LE(inSteps(), without + 2) << "it is there now";
+
+      // What is changed afterwards OSG uploads.
+      osg::Image& image = *textureOf(*poster).getImage();
+      std::fill_n(image.data(), image.getTotalSizeInBytes(), static_cast<unsigned char>(90));
+      image.dirty();
+      const Pixels changed = atOnce();
+      EXPECT_FALSE(changed == at_once);
+      root_->removeChild(poster);
+    }
+  }
+}
+
+TEST_F(PictureSteps, APictureAtOnceHasATextureThatWasHalfThere) {
+  const auto first = makePoster(1024, 1024, GL_RGBA, GL_RGBA8);
+  root_->addChild(first);
+  const Pixels at_once = atOnce();
+  root_->removeChild(first);
+  const auto poster = makePoster(1024, 1024, GL_RGBA, GL_RGBA8);
+  root_->addChild(poster);
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), PictureStep::More);
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), PictureStep::More);
+  ASSERT_FALSE(isUploaded(textureOf(*poster)));
+  EXPECT_TRUE(atOnce() == at_once);
+}
+
+TEST_F(PictureSteps, OsgUsesTheObjectOfATextureThatCameInBandsAgain) {
+  const auto poster = makePoster(1024, 1024, GL_RGBA, GL_RGBA8);
+  root_->addChild(poster);
+  EXPECT_GT(inSteps(), 2);
+  const Pixels in_steps = read();
+  root_->removeChild(poster);
+  textureOf(*poster).releaseGLObjects();
+  for (int i = 0; i < 3; ++i) {
+    const auto next = makePoster(1024, 1024, GL_RGBA, GL_RGBA8);
+    root_->addChild(next);
+    EXPECT_TRUE(atOnce() == in_steps);
+    root_->removeChild(next);
+    textureOf(*next).releaseGLObjects();
+  }
+}
+
+TEST_F(PictureSteps, ATextureThatChangesOrGoesMeanwhileIsBegunAnew) {
+  const auto poster = makePoster(1024, 1024, GL_RGBA, GL_RGBA8);
+  const auto other = makePoster(1024, 700, GL_RGBA, GL_RGBA8);
+  root_->addChild(other);
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), PictureStep::More);
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), PictureStep::More);
+  root_->removeChild(other);
+  root_->addChild(poster);
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), PictureStep::More);
+  osg::Image& image = *textureOf(*poster).getImage();
+  std::fill_n(image.data(), image.getTotalSizeInBytes(), static_cast<unsigned char>(90));
+  image.dirty();
+  EXPECT_GT(inSteps(), 3);
+  const Pixels in_steps = read();
+  EXPECT_TRUE(atOnce() == in_steps);
+  root_->removeChild(poster);
+  root_->addChild(other);
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), PictureStep::More);
+  ASSERT_EQ(pipeline_->step(output_->id(), kWidth, kHeight, 0.0), PictureStep::More);
+  pipeline_->releaseGl();  // with one that is half there
+  EXPECT_GT(inSteps(), 2);
 }
 
 /// Triangles of a sheet as so many instances of three of them, each told apart by its number alone.

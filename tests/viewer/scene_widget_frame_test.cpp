@@ -59,6 +59,57 @@ TEST_F(SceneWidgetFrames, ShowsTheLastPictureInItsMiddleUntilTheNextIsWhole) {
   settle();
 }
 
+/// A view that is moved between screens.
+class MovedView : public SceneWidget {
+ public:
+  void setRatio(int ratio) {
+    ratio_ = ratio;
+    QEvent event(QEvent::ScreenChangeInternal);
+    QCoreApplication::sendEvent(this, &event);
+  }
+
+ protected:
+  int metric(PaintDeviceMetric metric) const override {
+    switch (metric) {
+      case PdmDevicePixelRatio:
+        return ratio_;
+      case PdmDevicePixelRatioScaled:
+        return static_cast<int>(ratio_ * devicePixelRatioFScale());
+      default:
+        return SceneWidget::metric(metric);
+    }
+  }
+
+ private:
+  int ratio_ = 1;
+};
+
+TEST_F(SceneWidgetFrames, ShowsTheLastPictureOnASharperScreenUntilTheNextIsWhole) {
+  MovedView view;
+  view.resize(200, 150);
+  view.setDataset(dataset_, *executor_);
+  view.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&view));
+  settle();
+  const osg::ref_ptr<osg::MatrixTransform> before_eye =
+      new osg::MatrixTransform{osg::Matrixd::inverse(scenegraph::toOsg(view.shownView().eye_from_fixed))};
+  before_eye->addChild(scenegraph::makeQuad(0.3F, 0.3F, -2.0F, {0, 1, 1, 1}));
+  view.scene()->root().addChild(before_eye);
+  const auto [count, middle] = placeOf(view.grabFramebuffer(), QColor(0, 255, 255));
+  ASSERT_GT(count, 200);
+  settle();
+  const auto frames = view.framesDrawn();
+  view.setRatio(2);
+  const QImage kept = view.QOpenGLWidget::grabFramebuffer();
+  EXPECT_EQ(kept.size(), QSize(400, 300));
+  EXPECT_EQ(view.framesDrawn(), frames) << "nothing is drawn as yet";
+  EXPECT_EQ(placeOf(kept, QColor(0, 255, 255)).first, count);
+  ASSERT_TRUE(waitFor([&] { return view.framesDrawn() > frames; }));
+  EXPECT_NEAR(placeOf(view.QOpenGLWidget::grabFramebuffer(), QColor(0, 255, 255)).first, 4 * count, count / 2);
+  view.scene()->root().removeChild(before_eye);
+  settle();
+}
+
 TEST_F(SceneWidgetFrames, PaintingTheWindowAloneDrawsNoFrame) {
   const auto frames = widget_.framesDrawn();
   const QImage before = widget_.QOpenGLWidget::grabFramebuffer();

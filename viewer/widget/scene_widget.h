@@ -148,15 +148,15 @@ class SceneWidget : public QOpenGLWidget {
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
-  void keyPressEvent(QKeyEvent* event) override;
-  void keyReleaseEvent(QKeyEvent* event) override;
+  bool event(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override, keyReleaseEvent(QKeyEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
   void leaveEvent(QEvent* event) override;
 
  private:
-  void releaseGl(), dropPipeline(), takeBack(), stepDrawTimes(), onCameraMoved(), walk();
+  void releaseGl(), dropPipeline(), takeBack(), stepDrawTimes(), onCameraMoved(), walk(), frameIfWanted();
   [[nodiscard]] bool isLent() const noexcept { return picture_ != nullptr || draw_times_ != nullptr; }
-  void beginFrame(), continueFrame(), endFrame(), askForFrame(), fillBlank(), keepPicture(), frameIfWanted();
+  void beginFrame(), continueFrame(), endFrame(), askForFrame(), fillBlank(), keepPicture(), startBlank();
   FrameTurn::Step stepFrame();
   bool followTick(), obey(CameraCommand command), steer(CameraCommand command);
   [[nodiscard]] scenegraph::Follow::Pose displayPose() const;

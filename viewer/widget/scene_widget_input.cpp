@@ -18,6 +18,27 @@ constexpr double kWheelNotch = 120.0;  // eighths of a degree, as QWheelEvent co
 
 }  // namespace
 
+/// The framebuffer is new.
+void SceneWidget::startBlank() {
+  steps_.at = FrameSteps::At::Rest;
+  steps_.is_blank = true;
+  update();
+}
+
+/// On a screen with other pixels QOpenGLWidget makes a new framebuffer, without a resize.
+bool SceneWidget::event(QEvent* event) {
+  const bool is_sharper = event->type() == QEvent::ScreenChangeInternal && !steps_.shown_px.isEmpty() &&
+                          steps_.shown_px != (QSizeF(size()) * devicePixelRatioF()).toSize();
+  if (is_sharper) {
+    keepPicture();
+  }
+  const bool is_taken = QOpenGLWidget::event(event);
+  if (is_sharper) {
+    startBlank();
+  }
+  return is_taken;
+}
+
 /// QOpenGLWidget paints within each resize, and once more when the window does: a splitter that settles in three steps
 /// would draw four frames for one that is seen.
 void SceneWidget::resizeEvent(QResizeEvent* event) {
@@ -26,9 +47,7 @@ void SceneWidget::resizeEvent(QResizeEvent* event) {
     const QScopedValueRollback resizing(is_resizing_, true);
     QOpenGLWidget::resizeEvent(event);
   }
-  steps_.at = FrameSteps::At::Rest;
-  steps_.is_blank = true;
-  update();
+  startBlank();
   message_->setGeometry(rect());
   if (help_->isShown()) {
     help_->place();

@@ -63,8 +63,11 @@ std::string costText(const LayerCost& cost) {
   std::string text = grouped(cost.vertices) + " " + nounOf(cost.vertices, "vertices") + " in " +
                      grouped(cost.draw_calls) + " " + nounOf(cost.draw_calls, "draw calls");
   const auto add = [&](const char* what, const std::optional<double>& ms) {
+    constexpr double kLeastMs = 0.01;
     std::array<char, 32> number{};
-    if (ms) {
+    if (ms && *ms < kLeastMs) {
+      text += what + std::string("less than 0.01 ms");
+    } else if (ms) {
       const bool is_long = *ms >= 999.5;
       std::snprintf(number.data(), number.size(), is_long ? "%.1f" : "%.3g", is_long ? 1e-3 * *ms : *ms);
       text += what + std::string(number.data()) + (is_long ? " s" : " ms");

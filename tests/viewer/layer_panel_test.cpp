@@ -143,6 +143,9 @@ TEST_F(LayerPanelTest, ButtonsDuplicateRemoveAndMoveTheSelectedLayer) {
   click("removeLayer");
   EXPECT_THAT(ids(), ElementsAre("grid", "tf", "/points"));
   EXPECT_EQ(changes_.size(), 4);
+  tree_.selectLayer("grid");
+  click("duplicateLayer");
+  EXPECT_THAT(names(), ElementsAre("Grid", "Grid#2", "TF", "/points"));
 }
 
 TEST_F(LayerPanelTest, KeysDoWhatTheButtonsDo) {

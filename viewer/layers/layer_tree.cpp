@@ -45,7 +45,10 @@ QString beginning(const QString& sentence) {
 
 QString layerName(const scenegraph::LayerSlot& slot) {
   const bool is_builtin = slot.type->consumes == scenegraph::ObjectType::None;
-  return is_builtin && slot.title == slot.topic ? toQString(slot.type->label) : QString::fromStdString(slot.title);
+  if (!is_builtin || slot.title != slot.id) {
+    return QString::fromStdString(slot.title);
+  }
+  return toQString(slot.type->label) + QString::fromStdString(slot.id.substr(slot.topic.size()));  // of a copy: "#2"
 }
 
 QString counted(std::uint64_t count, std::string_view plural) {

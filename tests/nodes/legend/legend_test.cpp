@@ -220,6 +220,8 @@ TEST_F(LegendEntriesTest, ALayerTellsWhatItCosts) {
   EXPECT_THAT(scenegraph::costText(cost), testing::StartsWith("100 vertices in 1 draw call, decoded in "));
   EXPECT_EQ(scenegraph::costText({.vertices = 0, .draw_calls = 0, .decode_ms = 1746.2, .draw_ms = 999.4}),
             "0 vertices in 0 draw calls, decoded in 1.7 s, drawn in 999 ms");
+  EXPECT_EQ(scenegraph::costText({.vertices = 1, .draw_calls = 1, .decode_ms = 0.0008, .draw_ms = 0.0123}),
+            "1 vertex in 1 draw call, decoded in less than 0.01 ms, drawn in 0.0123 ms");
   EXPECT_FALSE(scenegraph::layerCost(*scene.findLayer("grid")).decode_ms) << "nothing was decoded for it";
   EXPECT_EQ(scenegraph::layerCost(*scene.findLayer("grid")).vertices, 44U);
   EXPECT_GT(scenegraph::layerCost(*scene.findLayer("tf")).draw_calls, 1U);

@@ -64,13 +64,14 @@ class KeptBinding {
 
 }  // namespace
 
-bool TextureUploads::bring(const osgUtil::StateGraph& graph, osg::State& state, const std::function<bool()>& isTimeUp) {
+bool TextureUploads::bring(const osgUtil::StateGraph& graph, osg::State& state,
+                           const std::function<bool()>& is_time_up) {
   for (const osgUtil::StateGraph* at = &graph; at != nullptr; at = at->_parent) {
     const osg::StateSet* const set = at->getStateSet();
     for (unsigned unit = 0; set != nullptr && unit < set->getNumTextureAttributeLists(); ++unit) {
       auto* const texture =
           dynamic_cast<const osg::Texture2D*>(set->getTextureAttribute(unit, osg::StateAttribute::TEXTURE));
-      if (texture != nullptr && !bringOne(const_cast<osg::Texture2D&>(*texture), state, isTimeUp)) {
+      if (texture != nullptr && !bringOne(const_cast<osg::Texture2D&>(*texture), state, is_time_up)) {
         return false;
       }
     }
@@ -78,7 +79,7 @@ bool TextureUploads::bring(const osgUtil::StateGraph& graph, osg::State& state, 
   return true;
 }
 
-bool TextureUploads::bringOne(osg::Texture2D& texture, osg::State& state, const std::function<bool()>& isTimeUp) {
+bool TextureUploads::bringOne(osg::Texture2D& texture, osg::State& state, const std::function<bool()>& is_time_up) {
   const unsigned context_id = state.getContextID();
   if (texture.getTextureObject(context_id) != nullptr || !suits(texture)) {
     return true;
@@ -96,7 +97,7 @@ bool TextureUploads::bringOne(osg::Texture2D& texture, osg::State& state, const 
     const int count = std::min(band, image.t() - upload.rows);
     uploadRows(image, upload.object->id(), upload.rows, count);
     upload.rows += count;
-  } while (upload.rows < image.t() && !isTimeUp());
+  } while (upload.rows < image.t() && !is_time_up());
   if (upload.rows < image.t()) {
     return false;
   }
@@ -107,7 +108,7 @@ bool TextureUploads::bringOne(osg::Texture2D& texture, osg::State& state, const 
   texture.getModifiedCount(context_id) = upload.modified_count;
   texture.getTextureParameterDirty(context_id) = 1;
   under_way_.reset();
-  return !isTimeUp();
+  return !is_time_up();
 }
 
 void TextureUploads::drop() {

@@ -22,9 +22,10 @@ class TextureUploads {
   TextureUploads(const TextureUploads&) = delete;
   TextureUploads& operator=(const TextureUploads&) = delete;
 
-  /// Goes on with the textures that are drawn with there, by a band at least, until `isTimeUp`. Returns whether none
+  /// Goes on with the textures that are drawn with there, by a band at least, until `is_time_up`. Returns whether none
   /// is missing that does not come with drawing.
-  [[nodiscard]] bool bring(const osgUtil::StateGraph& graph, osg::State& state, const std::function<bool()>& isTimeUp);
+  [[nodiscard]] bool bring(const osgUtil::StateGraph& graph, osg::State& state,
+                           const std::function<bool()>& is_time_up);
   /// Leaves what is under way. The context must be current.
   void drop();
 
@@ -35,7 +36,7 @@ class TextureUploads {
     unsigned modified_count = 0;  // of its image, when it was begun
     int rows = 0;                 // that are there
   };
-  [[nodiscard]] bool bringOne(osg::Texture2D& texture, osg::State& state, const std::function<bool()>& isTimeUp);
+  [[nodiscard]] bool bringOne(osg::Texture2D& texture, osg::State& state, const std::function<bool()>& is_time_up);
 
   std::optional<Upload> under_way_;
 };

@@ -156,11 +156,11 @@ void InspectPanel::refreshMeasurements() {
 QString InspectPanel::copyText() const {
   QStringList lines;
   const bool has_chosen = !rows_->selectedItems().isEmpty() || !measurements_->selectedItems().isEmpty();
-  const auto add = [&](const QTreeWidget& table, auto textOf) {
+  const auto add = [&](const QTreeWidget& table, auto text_of) {
     for (int i = 0; i < table.topLevelItemCount(); ++i) {
       const QTreeWidgetItem& row = *table.topLevelItem(i);
       if (row.isSelected() || !has_chosen) {
-        lines << textOf(row);
+        lines << text_of(row);
       }
     }
   };

@@ -46,8 +46,8 @@ std::expected<void, Status> checkPicture(const RenderOptions& options, int large
 /// What `pipeline` draws from now on is drawn by these options alone, but for its size.
 void takeOptions(ViewPipeline& pipeline, const RenderOptions& options);
 
-/// Draws what `pipeline` looks at into its own targets, takeOptions() included. The
-/// context must be current, and the picture checked.
+/// Draws what `pipeline` looks at into its own targets, takeOptions() included. The context must be current, and the
+/// picture checked.
 std::expected<void, Status> drawPicture(ViewPipeline& pipeline, const RenderOptions& options);
 
 /// Reads it back. Where the background is not opaque it is drawn again, on white: how much of a pixel hides the

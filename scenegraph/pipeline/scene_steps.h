@@ -19,9 +19,8 @@ namespace stillframe::scenegraph {
 /// A go ends with the drawable that uses its budget up, and before one that would, by what it took in the last picture:
 /// it lasts as long as the budget, or as the one drawable that takes longer; where OpenGL is waited for, a large one
 /// counts as several (DrawableSlice), and so does one with a large texture that is new to OpenGL (TextureUploads). The
-/// scene is culled in each; as long as nothing changes in it meanwhile, all goes
-/// together draw what one would have drawn, in the same order. What is blended is drawn in pieces of its own
-/// (Transparency). Thread of the context only.
+/// scene is culled in each; as long as nothing changes in it meanwhile, all goes together draw what one would have
+/// drawn, in the same order. What is blended is drawn in pieces of its own (Transparency). Thread of the context only.
 // NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): OSG counts references
 class SceneSteps : public osgUtil::RenderBin::DrawCallback {
  public:

@@ -178,8 +178,7 @@ void ViewPipeline::Impl::notePoints(std::optional<PointProgress> progress) {
   stages->setCullMask(point_progress ? ~kOpaquePoints : ~osg::Node::NodeMask{0});
 }
 
-void ViewPipeline::Impl::drawPoints() {
-  auto work = findPoints(std::numeric_limits<double>::infinity());
+void ViewPipeline::Impl::drawPoints(std::optional<PointWork> work) {
   notePoints(work ? std::optional(point_stage->draw(std::move(work->points), width_px, height_px, work->limits))
                   : std::nullopt);
 }
@@ -237,6 +236,11 @@ std::expected<bool, Status> ViewPipeline::Impl::makeReady(int width, int height,
 /// Of the picture's goes each: what others did to the context meanwhile is taken over.
 void ViewPipeline::Impl::startPicture(std::uint32_t output_fbo) {
   window->setDefaultFboId(output_fbo);
+  takeOver();
+}
+
+/// The context, and what has changed of the buffers.
+void ViewPipeline::Impl::takeOver() {
   adoptGlState();
   if (BufferPatches* const patches = BufferPatches::find(*root)) {
     patches->upload(contextId());
@@ -266,7 +270,7 @@ std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, i
   startPicture(output_fbo);
   for (int i = 0; i < stages->subFrames(); ++i) {
     stages->startSubFrame(i);
-    drawPoints();
+    drawPoints(findPoints(std::numeric_limits<double>::infinity()));
     gl::bindFramebuffer(output_fbo);
     drawFrame();
   }

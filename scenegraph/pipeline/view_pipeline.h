@@ -76,8 +76,8 @@ class ViewPipeline {
   /// The same picture in steps, each of about `budget_ms` (of a wait for OpenGL, where it is software) and at most one
   /// drawable or pass more. View, points and background are those of the first step; another size, chain or render()
   /// begin anew. The scene must stay as it is meanwhile.
-  static constexpr double kStepMs = 20.0;  ///< the budget in a window: other events wait no longer
   std::expected<PictureStep, Status> step(std::uint32_t output_fbo, int width_px, int height_px, double budget_ms);
+  static constexpr double kStepMs = 20.0;  ///< the budget in a window: other events wait no longer
   /// Presents what step() has drawn, over the whole of `output_fbo`. Does nothing before that.
   void present(std::uint32_t output_fbo);
   /// The same without present, for readColor(): what a picture file holds is not rounded to bytes on the way.

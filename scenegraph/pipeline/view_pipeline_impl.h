@@ -66,10 +66,11 @@ struct ViewPipeline::Impl {
   std::expected<void, Status> makeStages();
   void dropStages();
   void adoptGlState();
+  void takeOver();
   [[nodiscard]] PointWay wayOf(const PointCollection& points) const;
   [[nodiscard]] std::optional<PointWork> findPoints(double sub_frame_budget_ms);
   void notePoints(std::optional<PointProgress> progress);
-  void drawPoints();
+  void drawPoints(std::optional<PointWork> work);
   PictureStep stepPoints(double budget_ms);
   void dropPoints();
   void drawFrame();

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <utility>
 
-#include "scenegraph/buffer_patches.h"
 #include "scenegraph/osg_matrix.h"
 #include "scenegraph/pipeline/id_hits.h"
 #include "scenegraph/pipeline/view_pipeline_impl.h"
@@ -97,8 +96,7 @@ PictureStep ViewPipeline::Impl::stepPoints(double budget_ms) {
       point_stage->start(std::move(work->points), width_px, height_px, work->limits, wake);
       return PictureStep::Waits;
     }
-    notePoints(work ? std::optional(point_stage->draw(std::move(work->points), width_px, height_px, work->limits))
-                    : std::nullopt);
+    drawPoints(std::move(work));
   }
   at.awaits_points = false;
   at.has_points = stages->subFrames() == 1 || !point_progress || point_progress->share >= 1.0;
@@ -125,10 +123,7 @@ void ViewPipeline::present(std::uint32_t output_fbo) {
 }
 
 osg::RenderInfo ViewPipeline::Impl::startPick() {
-  adoptGlState();
-  if (BufferPatches* const patches = BufferPatches::find(*root)) {
-    patches->upload(contextId());
-  }
+  takeOver();
   if (id_pass == nullptr) {
     id_pass = std::make_unique<IdPass>();
   }

@@ -45,7 +45,7 @@ std::expected<CloudPoints, scenegraph::Status> CloudPoints::make(std::shared_ptr
   }
   points.converted_ = std::move(*converted);
   points.positions_->resize(points.converted_.points);
-  scenegraph::findBoxes(*points.positions_);
+  scenegraph::setBoxes(*points.positions_, std::move(points.converted_.boxes));
   points.channels_ = listChannels(*cloud);
   points.color_source_ = findColors(*cloud);
   points.message_bytes_ = cloud->data.bytes.size();

@@ -18,6 +18,7 @@ namespace stillframe::nodes {
 namespace {
 
 using scenegraph::FieldType;
+using scenegraph::kPassesOfSample;
 using scenegraph::PackedField;
 using scenegraph::PointCloud;
 
@@ -172,6 +173,7 @@ PartResult join(const std::vector<Part>& parts, std::span<const PartResult> resu
                 float* out) {
   PartResult joined;
   ConvertedCloud& all = joined.cloud;
+  bool are_boxes_whole = layout.rows == 1;  // each part's begin where a group does
   all.point_step = layout.point_step;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const ConvertedCloud& cloud = results[i].cloud;
@@ -191,6 +193,11 @@ PartResult join(const std::vector<Part>& parts, std::span<const PartResult> resu
     all.out_of_reach += cloud.out_of_reach;
     joined.low = glm::min(joined.low, results[i].low);
     joined.high = glm::max(joined.high, results[i].high);
+    are_boxes_whole = are_boxes_whole && all.boxes.size() * kPassesOfSample == all.points - cloud.points;
+    all.boxes.insert(all.boxes.end(), cloud.boxes.begin(), cloud.boxes.end());
+  }
+  if (!are_boxes_whole) {  // where points were dropped, the groups of what comes after are others
+    all.boxes = scenegraph::boxesOf({out, 3 * all.points});
   }
   return joined;
 }
@@ -214,6 +221,9 @@ PartResult convertParts(const CloudLayout& layout, std::span<const std::byte> da
     }
     result.low = progress.low;
     result.high = progress.high;
+    if (layout.rows == 1) {
+      result.cloud.boxes = scenegraph::boxesOf({place, 3 * result.cloud.points});  // while they are in the cache
+    }
   };
   scenegraph::runInBackground(parts.size(), convertPart);
   return join(parts, results, layout, out);
@@ -290,6 +300,7 @@ std::expected<ConvertedCloud, CloudError> convertCloud(const PointCloud& cloud, 
   }
   if (converted.origin != glm::dvec3(0.0)) {
     writeRelative(mixed, converted, data.data(), out);
+    converted.boxes = scenegraph::boxesOf({out, 3 * converted.points});
   }
   return converted;
 }

@@ -9,6 +9,7 @@
 
 #include "nodes/points/cloud_layout.h"
 #include "scenegraph/objects/point_cloud.h"
+#include "scenegraph/raster/point_blocks.h"
 
 namespace stillframe::nodes {
 
@@ -30,7 +31,8 @@ struct ConvertedCloud {
   glm::dvec3 box_min{0.0};       ///< of the points, in the cloud's own coordinates; meaningful when points > 0
   glm::dvec3 box_max{0.0};
   std::vector<PointRun> runs;
-  std::size_t point_step = 0;  ///< bytes
+  std::size_t point_step = 0;               ///< bytes
+  std::vector<scenegraph::PointBox> boxes;  ///< of the groups of the positions, as boxesOf() finds them
 
   /// Coordinates beyond this (m) would overflow the float arithmetic of bounds and culling.
   static constexpr float kReach = 1e15F;

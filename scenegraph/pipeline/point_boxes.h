@@ -22,14 +22,12 @@ class PointBoxes : public osg::Referenced {
   std::vector<PointBox> boxes_;
 };
 
-/// Once the positions stand; any thread that has the array to itself.
-inline void findBoxes(osg::Vec3Array& positions) {
-  osg::ref_ptr<PointBoxes> boxes = new PointBoxes(
-      positions.empty() ? std::vector<PointBox>{} : boxesOf({positions.front().ptr(), 3 * positions.size()}));
-  positions.setUserData(boxes);
+/// Once the positions stand: boxesOf() them. Any thread that has the array to itself.
+inline void setBoxes(osg::Vec3Array& positions, std::vector<PointBox> boxes) {
+  positions.setUserData(new PointBoxes(std::move(boxes)));
 }
 
-/// None before findBoxes(), nor when the array has changed its size since.
+/// None before setBoxes(), nor when the array has changed its size since.
 [[nodiscard]] inline std::span<const PointBox> knownBoxes(const osg::Vec3Array& positions) {
   const auto* const known = dynamic_cast<const PointBoxes*>(positions.getUserData());
   const bool is_whole =

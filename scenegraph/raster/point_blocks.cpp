@@ -46,7 +46,7 @@ PointBox boxOf(const float* values, std::size_t count) {
 
 std::vector<PointBox> boxesOf(std::span<const float> positions) {
   constexpr std::size_t kFloats = std::size_t{3} * kPassesOfSample;
-  constexpr std::size_t kGroupsATask = 128;
+  constexpr std::size_t kGroupsATask = 256;  // as many as a part of convertCloud() has: those it finds by itself
   std::vector<PointBox> boxes((positions.size() + kFloats - 1) / kFloats);
   runInBackground((boxes.size() + kGroupsATask - 1) / kGroupsATask, [&](std::size_t task) {
     const std::size_t end = std::min((task + 1) * kGroupsATask, boxes.size());

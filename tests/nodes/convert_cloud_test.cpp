@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -64,6 +65,32 @@ TEST(ConvertCloud, DropsNoneButTheBadPointWhereverItLies) {
           ASSERT_EQ(converted->positions[3 * i + 2] + static_cast<float>(converted->cloud.origin.z), points[kept].z);
         }
       }
+    }
+  }
+}
+
+TEST(ConvertCloud, GivesTheBoxesOfTheGroupsWhateverWasDroppedOrMoved) {
+  constexpr std::size_t kPoints = 600'000;  // three parts, the last one short
+  std::vector<Xyz> points(kPoints);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> metres(-50.0F, 50.0F);
+  std::ranges::generate(points, [&] { return Xyz{metres(random), metres(random), metres(random)}; });
+  PointCloud whole = xyzCloud(points);
+  PointCloud organised = whole;
+  organised.width = 1000;
+  organised.height = kPoints / 1000;
+  organised.row_step = organised.width * organised.point_step;
+  points[300'000].x = kNan;
+  const PointCloud dropped = xyzCloud(points);
+  std::ranges::for_each(points, [](Xyz& point) { point.y += 5e6F; });
+  for (const PointCloud& cloud : {whole, organised, dropped, xyzCloud(points), xyzCloud({{1, 2, 3}}), xyzCloud({})}) {
+    const auto converted = convert(cloud);
+    ASSERT_TRUE(converted);
+    const auto boxes = scenegraph::boxesOf(converted->positions);
+    ASSERT_EQ(converted->cloud.boxes.size(), boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      EXPECT_EQ(converted->cloud.boxes[i].low, boxes[i].low) << i;
+      EXPECT_EQ(converted->cloud.boxes[i].high, boxes[i].high) << i;
     }
   }
 }

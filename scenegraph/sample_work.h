@@ -12,6 +12,7 @@
 #include "scenegraph/status.h"
 #include "scenegraph/store/dataset.h"
 #include "scenegraph/store/tf_clock.h"
+#include "scenegraph/thread_priority.h"
 
 namespace stillframe::scenegraph {
 
@@ -52,6 +53,7 @@ struct SampleWork {
     if (object->type() != type) {
       return fail(StatusLevel::Error, "WrongObject", "the decoder made another object than the topic announces");
     }
+    const Precedence wanted;  // not while it is decoded: that may wait for a chunk that another thread unpacks
     auto converted = convert(*object, entry);
     if (!converted) {
       return fail(converted.error().level, converted.error().code, converted.error().message);

@@ -3,15 +3,34 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-namespace stillframe::scenegraph {
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
 
-namespace detail {
-inline thread_local bool stands_back = false;
-}
+namespace stillframe::scenegraph {
 
 /// How far a thread stands back behind those that draw and that fetch what is wanted now, where all want a core: in
 /// units of nice (POSIX), of which ten leave a ninth of a core.
 enum class StandBack { Loading = 10, Spare = 19 };
+
+namespace detail {
+
+struct Precedences {
+  std::mutex mutex;
+  std::condition_variable over;
+  std::atomic<int> count = 0;
+};
+[[nodiscard]] inline Precedences& precedences() noexcept {
+  static Precedences all;
+  return all;
+}
+inline thread_local bool stands_back = false;
+inline thread_local int patience = 0;  // times as long as it worked that a thread waits
+inline thread_local std::chrono::steady_clock::time_point resumed;
+
+}  // namespace detail
 
 /// Whether the calling thread stands back. What it has to do it does by itself: threads that help would not.
 [[nodiscard]] inline bool standsBack() noexcept { return detail::stands_back; }
@@ -19,8 +38,46 @@ enum class StandBack { Loading = 10, Spare = 19 };
 /// Lets the calling thread stand back until it ends; on Linux it alone, not its process. It has no way back without
 /// privileges, so it is for threads that do nothing else.
 inline void standBack(StandBack how) noexcept {
+  constexpr int kLoading = 2;
+  constexpr int kSpare = 64;
   detail::stands_back = true;
+  detail::patience = how == StandBack::Loading ? kLoading : kSpare;
+  detail::resumed = std::chrono::steady_clock::now();
   static_cast<void>(::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), static_cast<int>(how)));
+}
+
+/// As long as one lives, threads that stand back pause where they giveWay(). For a frame, or the conversion of what is
+/// waited for: the system lets a thread of low priority finish its slice of some milliseconds, and a core that it does
+/// not take it slows by the memory that it moves. One of a thread that stands back counts for nothing. Any thread.
+class Precedence {
+ public:
+  Precedence() noexcept : counts_(!standsBack()) { detail::precedences().count += counts_ ? 1 : 0; }
+  ~Precedence() {
+    if (counts_ && --detail::precedences().count == 0) {
+      const std::scoped_lock lock(detail::precedences().mutex);
+      detail::precedences().over.notify_all();
+    }
+  }
+  Precedence(const Precedence&) = delete;
+  Precedence& operator=(const Precedence&) = delete;
+
+ private:
+  bool counts_;
+};
+
+/// Pauses a thread that stands back while somebody has precedence: twice as long as it worked since it last paused, in
+/// spare time 64 times, so that both go on; 30 ms at most. Nothing for other threads. For work that takes
+/// long, every fraction of a millisecond; not with a lock held that others want, nor in what somebody waits for.
+inline void giveWay() {
+  auto& all = detail::precedences();
+  if (!standsBack() || all.count == 0) {
+    return;
+  }
+  constexpr std::chrono::steady_clock::duration kLongest = std::chrono::milliseconds(30);
+  const auto worked = std::min(std::chrono::steady_clock::now() - detail::resumed, kLongest);
+  std::unique_lock lock(all.mutex);
+  all.over.wait_for(lock, std::min(worked * detail::patience, kLongest), [&] { return all.count == 0; });
+  detail::resumed = std::chrono::steady_clock::now();
 }
 
 }  // namespace stillframe::scenegraph

@@ -10,6 +10,7 @@
 #include "scenegraph/pipeline/cpu_points.h"
 #include "scenegraph/pipeline/full_screen.h"
 #include "scenegraph/stopwatch.h"
+#include "scenegraph/thread_priority.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -137,6 +138,7 @@ void PointStage::start(PointCollection points, int width_px, int height_px, cons
 }
 
 PointProgress PointStage::drawNow(PointCollection points, int width_px, int height_px, const PointLimits& limits) {
+  const Precedence frame;
   picture_->setNodeMask(points.count > 0 ? ~0U : 0U);
   if (points.count == 0) {
     drawn_ = {};

@@ -18,6 +18,7 @@
 #include "scenegraph/pipeline/gl_context_info.h"
 #include "scenegraph/pipeline/view_pipeline_impl.h"
 #include "scenegraph/stopwatch.h"
+#include "scenegraph/thread_priority.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -264,6 +265,7 @@ std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, i
   if (!remade) {
     return std::unexpected(remade.error());
   }
+  const Precedence frame;
   projection_matrix = projection(view, static_cast<double>(width) / height);
   stages->setView(toOsg(view.eye_from_fixed), projection_matrix, background);
   stages->showAll();

@@ -7,6 +7,7 @@
 #include "scenegraph/pipeline/id_hits.h"
 #include "scenegraph/pipeline/view_pipeline_impl.h"
 #include "scenegraph/stopwatch.h"
+#include "scenegraph/thread_priority.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -23,6 +24,7 @@ std::expected<PictureStep, Status> ViewPipeline::step(std::uint32_t output_fbo, 
     impl.passes.clear();
     return PictureStep::Whole;
   }
+  const Precedence frame;
   const auto start = std::chrono::steady_clock::now();
   const auto remade = impl.makeReady(width_px, height_px, true);
   if (!remade) {
@@ -108,14 +110,17 @@ void ViewPipeline::present(std::uint32_t output_fbo) {
   if (!impl.stages || !impl.stepped || impl.stepped->stage + 1 < impl.stages->count()) {
     return;
   }
+  const Precedence frame;
   const auto start = std::chrono::steady_clock::now();
   const double rest_ms = impl.stepped->rest_ms;
   impl.stepped.reset();
   impl.stages->showOnly(impl.stages->count() - 1, false);
   impl.startPicture(output_fbo);
   impl.viewer->frame();
+  if (impl.is_software) {
+    gl::finish();  // here, where the frame has precedence
+  }
   if (impl.point_progress && impl.isPaced()) {
-    gl::finish();
     impl.noteRest(rest_ms + millisecondsSince(start));
   }
   gl::bindFramebuffer(output_fbo);

@@ -11,11 +11,13 @@ namespace stillframe::scenegraph {
 
 /// `task(number)` for all numbers below `count`, in parallel, where nobody draws: who draws points, in an arena of the
 /// highest priority, gets the threads that help here as soon as they have done their task. So a task is to take less
-/// than a millisecond. For workers; returns when all are done. A worker that stands back does them all by itself.
+/// than a millisecond. For workers; returns when all are done. A worker that stands back does them all by itself, and
+/// gives way between them.
 template <typename Task>
 void runInBackground(std::size_t count, const Task& task) {
   if (count <= 1 || standsBack()) {
     for (std::size_t number = 0; number < count; ++number) {
+      giveWay();
       task(number);
     }
     return;

@@ -23,4 +23,21 @@ inline void useLargePages(void* block, std::size_t bytes) noexcept {
   (void)::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 
+/// Has the system lay the whole pages within a block, which hold nothing yet or what they hold: who writes to them
+/// then need not wait for that. Any thread, beside who writes. A system that does not know how leaves it to the writer.
+inline void populatePages(void* block, std::size_t bytes) noexcept {
+#ifdef MADV_POPULATE_WRITE
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(block) + page - 1) / page * page;
+  const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(block) + bytes) / page * page;
+  if (begin < end) {
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): rounded to whole pages
+    (void)::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_WRITE);
+  }
+#else
+  (void)block;
+  (void)bytes;
+#endif
+}
+
 }  // namespace stillframe::scenegraph

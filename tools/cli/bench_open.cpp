@@ -45,21 +45,23 @@ std::vector<ingest::ChunkPlace> chunksOfClouds(const ingest::McapFile& file, con
   return chunks;
 }
 
-/// What any reader has to do for them: each read in one piece and unpacked in one go, as many at a time as there are
-/// cores. No index is read, no sum is checked, nothing is parsed.
+/// What any reader has to do for them: each read piece by piece and unpacked, as many at a time as there are cores. No
+/// index is read, no sum is checked, nothing is parsed.
 double readingMs(const ingest::McapFile& file, const std::vector<ingest::ChunkPlace>& chunks) {
   const auto executor = scenegraph::makeThreadPoolExecutor(std::thread::hardware_concurrency());
   const Clock::time_point start = Clock::now();
   for (const ingest::ChunkPlace& place : chunks) {
     executor->submit([&file, &place] {
-      const ingest::Buffer record = ingest::makeBuffer(static_cast<std::size_t>(place.length));
-      (void)file.file().read(place.offset, {record.data.get(), record.size});
-      const auto content = record.bytes().subspan(ingest::kRecordHeaderBytes);
-      if (const auto header = ingest::parseChunkHeader(content)) {
-        const auto packed = content.subspan(header->header_bytes);
+      constexpr std::size_t kHead = 128;  // bytes of record and chunk header, and more
+      std::array<std::byte, kHead> head{};
+      (void)file.file().read(place.offset, head);
+      if (const auto header = ingest::parseChunkHeader(std::span(head).subspan(ingest::kRecordHeaderBytes))) {
+        const std::uint64_t from = place.offset + ingest::kRecordHeaderBytes + header->header_bytes;
+        const ingest::PackedBytes packed{
+            static_cast<std::size_t>(header->packed_size),
+            [&](std::size_t position, std::span<std::byte> into) { return file.file().read(from + position, into); }};
         (void)ingest::decompress(ingest::compressionFromName(header->compression).value_or(ingest::Compression::None),
-                                 {packed.size(), [&](std::size_t position) { return packed.subspan(position); }},
-                                 header->uncompressed_size);
+                                 packed, header->uncompressed_size);
       }
     });
   }
@@ -103,9 +105,13 @@ struct Opening {
 
 /// As the window does it: the recording is loaded on a thread of its own, and the view looks each time that grew.
 Result<Opening> openOnce(const RecordingOptions& options, const FirstPicture& first) {
-  auto renderer = scenegraph::OffscreenRenderer::create();  // the window is there
+  auto renderer = scenegraph::OffscreenRenderer::create();  // the window is there, and painted
   if (!renderer) {
     return failure(renderer.error().message);
+  }
+  const osg::ref_ptr<osg::Group> nothing = new osg::Group;
+  if (const auto painted = (*renderer)->show(*nothing, {}, {}); !painted) {
+    return failure(painted.error().message);
   }
   const Clock::time_point start = Clock::now();
   const std::array files{std::filesystem::path(options.file)};

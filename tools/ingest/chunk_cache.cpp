@@ -2,6 +2,8 @@
 
 #include <iterator>
 
+#include "scenegraph/thread_priority.h"
+
 namespace stillframe::ingest {
 
 std::shared_ptr<ChunkCache::Slot> ChunkCache::slotOf(std::uint64_t key) {
@@ -29,14 +31,17 @@ void ChunkCache::letGo(std::list<Item>& items, std::list<Item>::iterator item) {
   items.splice(items.begin(), items_, item);
 }
 
-std::shared_ptr<const ChunkCache::Chunk> ChunkCache::get(std::uint64_t key, const std::function<Chunk()>& unpack) {
+std::shared_ptr<const ChunkCache::Chunk> ChunkCache::get(std::uint64_t key, const Unpack& unpack) {
   std::shared_ptr<Slot> slot;
   {
     const std::lock_guard lock(mutex_);
     slot = slotOf(key);
   }
+  if (!scenegraph::standsBack()) {
+    slot->is_awaited = true;
+  }
   std::call_once(slot->once, [&] {
-    slot->chunk = unpack();
+    slot->chunk = unpack(slot->is_awaited);
     std::list<Item> evicted;  // destroyed after the lock: a chunk may be large
     const std::size_t bytes = slot->chunk ? slot->chunk->size : 0;
     const std::lock_guard lock(mutex_);

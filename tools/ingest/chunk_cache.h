@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <expected>
@@ -23,14 +24,17 @@ class ChunkCache {
   using Chunk = std::expected<Buffer, std::string>;
 
   explicit ChunkCache(std::size_t max_bytes) : max_bytes_(max_bytes) {}
+  /// Makes a chunk; `is_awaited` is or becomes true where a thread wants it that does not stand back.
+  using Unpack = std::function<Chunk(const std::atomic<bool>& is_awaited)>;
   /// The chunk of that key; `unpack` makes it when it is not there. Blocks while another thread makes it.
-  [[nodiscard]] std::shared_ptr<const Chunk> get(std::uint64_t key, const std::function<Chunk()>& unpack);
+  [[nodiscard]] std::shared_ptr<const Chunk> get(std::uint64_t key, const Unpack& unpack);
   /// The chunk is not wanted again soon.
   void drop(std::uint64_t key);
 
  private:
   struct Slot {
     std::once_flag once;
+    std::atomic<bool> is_awaited = false;
     Chunk chunk;
   };
   struct Item {

@@ -9,6 +9,7 @@
 
 #include "scenegraph/store/large_pages.h"
 #include "tools/ingest/sentence.h"
+#include "tools/ingest/unpack_helper.h"
 
 namespace stillframe::ingest {
 
@@ -72,8 +73,7 @@ Buffer grown(Buffer old, std::size_t used, std::size_t size) {
 }
 
 template <typename Stream>
-std::expected<Buffer, std::string> unpack(const PackedBytes& packed, std::size_t claimed, Completeness completeness,
-                                          const std::function<void(std::span<const std::byte>)>& made) {
+std::expected<Buffer, std::string> unpack(const PackedBytes& packed, std::size_t claimed, const Unpacking& unpacking) {
   Stream stream;
   if (stream.context == nullptr) {
     return std::unexpected("no memory for a decompressor");
@@ -83,6 +83,10 @@ std::expected<Buffer, std::string> unpack(const PackedBytes& packed, std::size_t
   const bool is_plausible = claimed <= packed.size * kPlausibleRatio;
   std::size_t capacity = is_plausible ? limit : std::min<std::size_t>(limit, packed.size * kPlausibleRatio + 4096);
   Buffer out = grown({}, 0, capacity);
+  auto helper = unpacking.has_helper && is_plausible
+                    ? UnpackHelper::start(packed, unpacking.made, std::span(out.data.get(), capacity))
+                    : nullptr;
+  PackedWindow window(packed);
   std::size_t used = 0;
   std::size_t position = 0;
   bool is_finished = false;
@@ -92,21 +96,27 @@ std::expected<Buffer, std::string> unpack(const PackedBytes& packed, std::size_t
       capacity = std::min(limit, capacity * 2);
       out = grown(std::move(out), used, capacity);
     }
-    const auto in = position < packed.size ? packed.from(position) : std::span<const std::byte>{};
+    unpacking.pause();
+    const auto in = helper ? helper->from(position) : window.from(position);
     const Step step = stream.step(in, {out.data.get() + used, capacity - used});
-    made({out.data.get() + used, step.produced});
     position += step.consumed;
     used += step.produced;
+    if (helper) {
+      helper->made(used);
+    } else {
+      unpacking.made({out.data.get() + used - step.produced, step.produced});
+    }
     is_finished = step.is_finished;
     error = step.error;
     if (used == limit || (is_finished && position == packed.size) || (step.consumed == 0 && step.produced == 0)) {
       break;
     }
   }
+  helper.reset();
   if (used > claimed) {
     return std::unexpected(sentence("it holds more than the ", claimed, " bytes it claims"));
   }
-  if (completeness == Completeness::Whole) {
+  if (unpacking.completeness == Completeness::Whole) {
     if (error != nullptr) {
       return std::unexpected(sentence("its data cannot be unpacked: ", error));
     }
@@ -115,6 +125,22 @@ std::expected<Buffer, std::string> unpack(const PackedBytes& packed, std::size_t
     }
   }
   out.size = used;
+  return out;
+}
+
+/// Not packed at all.
+std::expected<Buffer, std::string> copy(const PackedBytes& packed, std::size_t claimed, const Unpacking& unpacking) {
+  Buffer out = makeBuffer(claimed);
+  for (std::size_t used = 0; used < claimed;) {
+    unpacking.pause();
+    const std::size_t taken = packed.read(
+        used, std::span(out.data.get(), claimed).subspan(used, std::min(PackedWindow::kBytes, claimed - used)));
+    if (taken == 0) {
+      return std::unexpected(sentence("it claims ", claimed, " bytes but holds ", used));
+    }
+    unpacking.made({out.data.get() + used, taken});
+    used += taken;
+  }
   return out;
 }
 
@@ -165,10 +191,9 @@ std::uint64_t maxUnpackedBytes(Compression compression, std::uint64_t packed_byt
 }
 
 std::expected<Buffer, std::string> decompress(Compression compression, const PackedBytes& packed,
-                                              std::uint64_t claimed_bytes, Completeness completeness,
-                                              const std::function<void(std::span<const std::byte>)>& made) {
+                                              std::uint64_t claimed_bytes, const Unpacking& unpacking) {
   const std::uint64_t limit = maxUnpackedBytes(compression, packed.size);
-  const bool is_prefix = completeness == Completeness::Prefix;
+  const bool is_prefix = unpacking.completeness == Completeness::Prefix;
   if (claimed_bytes > limit && !(is_prefix && claimed_bytes <= kMaxChunkBytes)) {
     return std::unexpected(sentence("it claims ", claimed_bytes, " bytes, which ", packed.size, " bytes of ",
                                     compression == Compression::None ? "uncompressed" : toString(compression),
@@ -177,27 +202,16 @@ std::expected<Buffer, std::string> decompress(Compression compression, const Pac
   const auto claimed = static_cast<std::size_t>(is_prefix ? std::min(claimed_bytes, limit) : claimed_bytes);
   switch (compression) {
     case Compression::Lz4:
-      return unpack<Lz4Stream>(packed, claimed, completeness, made);
+      return unpack<Lz4Stream>(packed, claimed, unpacking);
     case Compression::Zstd:
-      return unpack<ZstdStream>(packed, claimed, completeness, made);
+      return unpack<ZstdStream>(packed, claimed, unpacking);
     case Compression::None:
       break;
   }
   if (!is_prefix && packed.size != claimed) {
     return std::unexpected(sentence("it claims ", claimed, " bytes but holds ", packed.size));
   }
-  Buffer out = makeBuffer(claimed);
-  for (std::size_t used = 0; used < claimed;) {
-    const auto in = packed.from(used);
-    if (in.empty()) {
-      return std::unexpected(sentence("it claims ", claimed, " bytes but holds ", used));
-    }
-    const std::size_t taken = std::min(in.size(), claimed - used);
-    std::copy_n(in.begin(), taken, out.data.get() + used);
-    made({out.data.get() + used, taken});
-    used += taken;
-  }
-  return out;
+  return copy(packed, claimed, unpacking);
 }
 
 std::expected<std::vector<std::byte>, std::string> compress(Compression compression, std::span<const std::byte> bytes) {

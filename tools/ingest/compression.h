@@ -46,18 +46,29 @@ enum class Completeness : std::uint8_t {
 /// Packed bytes that need not be in memory all at once.
 struct PackedBytes {
   std::size_t size = 0;
-  /// Some of those from a position on, valid until the next call; none where there are fewer than was said.
-  std::function<std::span<const std::byte>(std::size_t position)> from;
+  /// Copies some of those from a position on, and says how many; none where there are fewer than was said.
+  std::function<std::size_t(std::size_t position, std::span<std::byte> into)> read;
 };
 
-/// Unpacks a chunk that claims to hold `claimed_bytes`. Any thread. `made` is given each piece that comes out, once.
+/// What else decompress() is to do.
+struct Unpacking {
+  Completeness completeness = Completeness::Whole;
+  /// Given each piece that comes out, once and in order.
+  std::function<void(std::span<const std::byte>)> made = [](std::span<const std::byte>) {};
+  /// Called between pieces, on the caller's thread.
+  std::function<void()> pause = [] {};
+  /// Whether a thread of its own does what goes beside: reads ahead, touches memory ahead, and hands on what was made.
+  /// Where unpacking is all there is to wait for it takes a fifth less then. `read` and `made` are called there.
+  bool has_helper = false;
+};
+
+/// Unpacks a chunk that claims to hold `claimed_bytes`. Any thread.
 ///
 /// A claim beyond maxUnpackedBytes() is refused at once; beneath it memory grows with what is really produced when the
 /// claim is more than 64 times what is packed. The error is half a sentence with the byte counts.
-[[nodiscard]] std::expected<Buffer, std::string> decompress(
-    Compression compression, const PackedBytes& packed, std::uint64_t claimed_bytes,
-    Completeness completeness = Completeness::Whole,
-    const std::function<void(std::span<const std::byte>)>& made = [](std::span<const std::byte>) {});
+[[nodiscard]] std::expected<Buffer, std::string> decompress(Compression compression, const PackedBytes& packed,
+                                                            std::uint64_t claimed_bytes,
+                                                            const Unpacking& unpacking = {});
 
 [[nodiscard]] std::expected<std::vector<std::byte>, std::string> compress(Compression compression,
                                                                           std::span<const std::byte> bytes);

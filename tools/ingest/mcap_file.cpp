@@ -12,8 +12,8 @@ namespace stillframe::ingest {
 namespace {
 
 constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{256} << 20;  // of a record that is read whole
-constexpr std::size_t kWindowBytes = std::size_t{256} << 10;
-constexpr std::size_t kChunkHeaderBytes = 40 + 64;  // with room for the name of the compression
+constexpr std::uint64_t kWorthAHelper = std::uint64_t{8} << 20;      // bytes: some milliseconds
+constexpr std::size_t kChunkHeaderBytes = 40 + 64;                   // with room for the name of the compression
 
 std::uint32_t crcOfRange(const File& file, std::uint64_t begin, std::uint64_t end) {
   ForwardReader reader(file);
@@ -201,7 +201,7 @@ void McapFile::keepSoundChunks(Index& index) {
   });
 }
 
-std::expected<Buffer, std::string> McapFile::unpack(const ChunkPlace& place) const {
+std::expected<Buffer, std::string> McapFile::unpack(const ChunkPlace& place, const std::function<void()>& pause) const {
   const auto bad = [&](const auto&... reason) {
     return std::unexpected(
         sentence("the chunk at byte ", place.offset, " of '", file_->path(), "' cannot be read: ", reason...));
@@ -236,22 +236,19 @@ std::expected<Buffer, std::string> McapFile::unpack(const ChunkPlace& place) con
   if (header->uncompressed_size > maxUnpackedBytes(*compression, header->packed_size)) {
     return bad("it claims ", header->uncompressed_size, " bytes, more than ", header->packed_size, " bytes can hold");
   }
-  // A window of the packed bytes at a time, which stays in the cache of the processor, as what comes out does for its
-  // sum: a chunk may be larger than all caches, and the first touch of memory costs more than reading.
-  std::vector<std::byte> window(static_cast<std::size_t>(std::min<std::uint64_t>(packed_size, kWindowBytes)));
   bool is_short = false;
-  const PackedBytes packed{static_cast<std::size_t>(packed_size), [&](std::size_t position) {
-                             const std::span<std::byte> wanted = std::span<std::byte>(window).first(
-                                 std::min(window.size(), static_cast<std::size_t>(packed_size) - position));
-                             const std::size_t got = file_->read(place.offset + data_offset + position, wanted);
-                             is_short |= got != wanted.size();
-                             return std::span<const std::byte>(wanted.first(got));
+  const PackedBytes packed{static_cast<std::size_t>(packed_size), [&](std::size_t position, std::span<std::byte> into) {
+                             const std::size_t got = file_->read(place.offset + data_offset + position, into);
+                             is_short |= got != into.size();
+                             return got;
                            }};
   std::uint32_t crc = 0;
   const bool is_checked = !place.is_cut && header->uncompressed_crc != 0;
   auto records = decompress(*compression, packed, header->uncompressed_size,
-                            place.is_cut ? Completeness::Prefix : Completeness::Whole,
-                            [&](std::span<const std::byte> made) { crc = is_checked ? crc32(made, crc) : 0; });
+                            {.completeness = place.is_cut ? Completeness::Prefix : Completeness::Whole,
+                             .made = [&](std::span<const std::byte> made) { crc = is_checked ? crc32(made, crc) : 0; },
+                             .pause = pause,
+                             .has_helper = header->uncompressed_size >= kWorthAHelper});
   if (is_short) {
     return bad("the file became shorter");
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <expected>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -72,9 +73,11 @@ class McapFile {
   /// Appends the messages of a chunk in the order of their offsets: from its message indexes in one read, or by
   /// unpacking it when it has none or they are damaged. Not for a scanned file.
   void listMessages(std::size_t chunk, std::vector<FoundMessage>& out);
-  /// The records of a chunk, CRC checked. The error is one sentence with offset and reason.
-  [[nodiscard]] std::expected<Buffer, std::string> unpack(std::size_t chunk) const {
-    return unpack(index_.chunks[chunk]);
+  /// The records of a chunk, CRC checked. The error is one sentence with offset and reason. `pause` is called every
+  /// fraction of a millisecond; a chunk of 8 MiB or more takes a second thread meanwhile.
+  [[nodiscard]] std::expected<Buffer, std::string> unpack(
+      std::size_t chunk, const std::function<void()>& pause = [] {}) const {
+    return unpack(index_.chunks[chunk], pause);
   }
 
  private:
@@ -99,7 +102,8 @@ class McapFile {
   void addSchema(std::span<const std::byte> content);
   void addChannel(std::span<const std::byte> content);
   [[nodiscard]] bool listFromIndex(std::size_t chunk, std::vector<FoundMessage>& out);
-  [[nodiscard]] std::expected<Buffer, std::string> unpack(const ChunkPlace& place) const;
+  [[nodiscard]] std::expected<Buffer, std::string> unpack(
+      const ChunkPlace& place, const std::function<void()>& pause = [] {}) const;
 
   std::shared_ptr<const File> file_;
   Index index_;

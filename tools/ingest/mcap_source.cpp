@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scenegraph/store/large_pages.h"
+#include "scenegraph/thread_priority.h"
 #include "tools/ingest/field_reader.h"
 #include "tools/ingest/sentence.h"
 
@@ -91,7 +92,13 @@ std::expected<McapSource::Located, scenegraph::DecodeError> McapSource::locate(c
   if (place.chunk >= file.chunks().size()) {
     return std::unexpected(misplaced(place, file.file().path(), "no chunk"));
   }
-  auto chunk = chunks_.get(chunkKey(place), [&] { return file.unpack(place.chunk); });
+  auto chunk = chunks_.get(chunkKey(place), [&](const std::atomic<bool>& is_awaited) {
+    return file.unpack(place.chunk, [&is_awaited] {
+      if (!is_awaited) {
+        scenegraph::giveWay();
+      }
+    });
+  });
   if (!*chunk) {
     return std::unexpected(scenegraph::DecodeError{"BadChunk", chunk->error()});
   }

@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <semaphore>
 #include <set>
 #include <thread>
 #include <vector>
+
+#include "scenegraph/stopwatch.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -33,6 +37,51 @@ TEST(BackgroundTasks, OfAThreadThatStandsBackTakeNoOther) {
   EXPECT_FALSE(stood_back) << "unasked";
   EXPECT_EQ(threads, std::set{own});
   EXPECT_FALSE(standsBack()) << "nobody but that thread";
+}
+
+/// How long a thread that stands back pauses, milliseconds, after it worked so long.
+double pauseMs(StandBack how, std::chrono::milliseconds worked) {
+  double paused_ms = 0.0;
+  std::thread([&] {
+    standBack(how);
+    std::this_thread::sleep_for(worked);
+    const auto start = std::chrono::steady_clock::now();
+    giveWay();
+    paused_ms = millisecondsSince(start);
+  }).join();
+  return paused_ms;
+}
+
+TEST(Precedence, PausesThreadsThatStandBackByWhatTheyWorked) {
+  const Precedence drawing;
+  const double loading_ms = pauseMs(StandBack::Loading, std::chrono::milliseconds(5));
+  EXPECT_GE(loading_ms, 9.0) << "twice as long";
+  EXPECT_GE(pauseMs(StandBack::Spare, std::chrono::milliseconds(1)), 29.0) << "64 times, 30 ms at most";
+  EXPECT_LT(pauseMs(StandBack::Loading, std::chrono::milliseconds(0)), loading_ms) << "who has not worked goes on";
+}
+
+TEST(Precedence, OfAThreadThatStandsBackCountsForNothing) {
+  std::binary_semaphore is_held{0};
+  std::binary_semaphore is_over{0};
+  std::thread holder([&] {
+    standBack(StandBack::Spare);
+    const Precedence spare;
+    is_held.release();
+    is_over.acquire();
+  });
+  is_held.acquire();
+  EXPECT_LT(pauseMs(StandBack::Spare, std::chrono::milliseconds(5)), 20.0);
+  is_over.release();
+  holder.join();
+}
+
+TEST(Precedence, IsNothingToOtherThreads) {
+  const auto start = std::chrono::steady_clock::now();
+  const Precedence drawing;
+  for (int i = 0; i < 1000; ++i) {
+    giveWay();  // this thread does not stand back: a thousand pauses would be 30 s
+  }
+  EXPECT_LT(millisecondsSince(start), 1000.0);
 }
 
 }  // namespace

@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <semaphore>
+#include <thread>
 #include <utility>
+
+#include "scenegraph/thread_priority.h"
 
 namespace stillframe::ingest {
 namespace {
@@ -14,8 +20,8 @@ struct Unpacking {
   std::size_t bytes;
   int times = 0;
 
-  std::function<ChunkCache::Chunk()> operator()() {
-    return [this]() -> ChunkCache::Chunk {
+  ChunkCache::Unpack operator()() {
+    return [this](const std::atomic<bool>&) -> ChunkCache::Chunk {
       ++times;
       return makeBuffer(bytes);
     };
@@ -53,13 +59,38 @@ TEST(ChunkCache, FindsAChunkThatItLetGoOfWhileSomebodyReadsIt) {
 TEST(ChunkCache, RemembersWhatCannotBeUnpacked) {
   ChunkCache cache(kBound);
   int tries = 0;
-  const auto fail = [&]() -> ChunkCache::Chunk {
+  const auto fail = [&](const std::atomic<bool>&) -> ChunkCache::Chunk {
     ++tries;
     return std::unexpected("it is damaged");
   };
   EXPECT_EQ(cache.get(1, fail)->error(), "it is damaged");
   EXPECT_FALSE(cache.get(1, fail)->has_value());
   EXPECT_EQ(tries, 1);
+}
+
+TEST(ChunkCache, SaysWhileItUnpacksThatAnotherThreadAwaitsTheChunk) {
+  ChunkCache cache(kBound);
+  std::binary_semaphore is_begun{0};
+  bool was_awaited_at_first = true;
+  bool is_awaited_at_last = false;
+  std::thread loader([&] {
+    scenegraph::standBack(scenegraph::StandBack::Loading);
+    (void)cache.get(1, [&](const std::atomic<bool>& is_awaited) -> ChunkCache::Chunk {
+      was_awaited_at_first = is_awaited;
+      is_begun.release();
+      for (int i = 0; i < 10'000 && !is_awaited; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      is_awaited_at_last = is_awaited;
+      return makeBuffer(1);
+    });
+  });
+  is_begun.acquire();
+  EXPECT_TRUE(cache.get(1, [](const std::atomic<bool>&) -> ChunkCache::Chunk { return std::unexpected("twice"); })
+                  ->has_value());
+  loader.join();
+  EXPECT_FALSE(was_awaited_at_first);
+  EXPECT_TRUE(is_awaited_at_last);
 }
 
 }  // namespace

@@ -26,8 +26,23 @@ struct Precedences {
   static Precedences all;
   return all;
 }
+struct Errand {
+  const std::atomic<bool>& is_awaited;
+  const Errand* outer;  // in which this is one step
+};
+inline thread_local const Errand* errand = nullptr;
+[[nodiscard]] inline bool isAwaited() noexcept {
+  const Errand* at = errand;
+  while (at != nullptr && !at->is_awaited) {
+    at = at->outer;
+  }
+  return at != nullptr;
+}
 inline thread_local bool stands_back = false;
-inline thread_local int patience = 0;  // times as long as it worked that a thread waits
+// Times as long as it worked that a thread waits: with more, what is read ahead is not there when it is wanted.
+inline constexpr int kLoading = 2;
+inline constexpr int kSpare = 1;
+inline thread_local int patience = 0;
 inline thread_local std::chrono::steady_clock::time_point resumed;
 
 }  // namespace detail
@@ -35,13 +50,14 @@ inline thread_local std::chrono::steady_clock::time_point resumed;
 /// Whether the calling thread stands back. What it has to do it does by itself: threads that help would not.
 [[nodiscard]] inline bool standsBack() noexcept { return detail::stands_back; }
 
+/// Whether it does what is not wanted yet, and may never be.
+[[nodiscard]] inline bool isSpare() noexcept { return detail::stands_back && detail::patience == detail::kSpare; }
+
 /// Lets the calling thread stand back until it ends; on Linux it alone, not its process. It has no way back without
 /// privileges, so it is for threads that do nothing else.
 inline void standBack(StandBack how) noexcept {
-  constexpr int kLoading = 2;
-  constexpr int kSpare = 64;
   detail::stands_back = true;
-  detail::patience = how == StandBack::Loading ? kLoading : kSpare;
+  detail::patience = how == StandBack::Loading ? detail::kLoading : detail::kSpare;
   detail::resumed = std::chrono::steady_clock::now();
   static_cast<void>(::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), static_cast<int>(how)));
 }
@@ -65,18 +81,45 @@ class Precedence {
   bool counts_;
 };
 
-/// Pauses a thread that stands back while somebody has precedence: twice as long as it worked since it last paused, in
-/// spare time 64 times, so that both go on; 30 ms at most. Nothing for other threads. For work that takes
-/// long, every fraction of a millisecond; not with a lock held that others want, nor in what somebody waits for.
+/// What the calling thread does from here to the end of this, which others may come to wait for: once `is_awaited`, it
+/// pauses no more. Errands nest.
+class Errand {
+ public:
+  explicit Errand(const std::atomic<bool>& is_awaited) noexcept : errand_{is_awaited, detail::errand} {
+    detail::errand = &errand_;
+  }
+  ~Errand() { detail::errand = errand_.outer; }
+  Errand(const Errand&) = delete;
+  Errand& operator=(const Errand&) = delete;
+
+ private:
+  detail::Errand errand_;
+};
+
+/// Before waiting for an errand of another thread: it is awaited now, unless the caller stands back and nobody waits
+/// for it either. Any thread.
+inline void await(std::atomic<bool>& is_awaited) {
+  if (standsBack() && !detail::isAwaited()) {
+    return;
+  }
+  is_awaited = true;
+  const std::scoped_lock lock(detail::precedences().mutex);
+  detail::precedences().over.notify_all();
+}
+
+/// Pauses a thread that stands back while somebody has precedence: as long as it worked since it last paused, twice as
+/// long where it loads, so that both go on; 30 ms at most, and never in an errand that is awaited. Nothing for other
+/// threads. For work that takes long, every fraction of a millisecond; not with a lock held that others want.
 inline void giveWay() {
   auto& all = detail::precedences();
-  if (!standsBack() || all.count == 0) {
+  if (!standsBack() || all.count == 0 || detail::isAwaited()) {
     return;
   }
   constexpr std::chrono::steady_clock::duration kLongest = std::chrono::milliseconds(30);
   const auto worked = std::min(std::chrono::steady_clock::now() - detail::resumed, kLongest);
   std::unique_lock lock(all.mutex);
-  all.over.wait_for(lock, std::min(worked * detail::patience, kLongest), [&] { return all.count == 0; });
+  all.over.wait_for(lock, std::min(worked * detail::patience, kLongest),
+                    [&] { return all.count == 0 || detail::isAwaited(); });
   detail::resumed = std::chrono::steady_clock::now();
 }
 

@@ -40,11 +40,18 @@ std::shared_ptr<const void> ObjectCache::findUncounted(const CacheKey& key) {
 
 ObjectCache::Claim::Claim(ObjectCache& cache, CacheKey key) : cache_(cache), key_(std::move(key)) {
   std::unique_lock lock(cache_.mutex_);
-  cache_.released_.wait(lock, [this] { return !cache_.claimed_.contains(key_); });
-  cache_.claimed_.insert(key_);
+  cache_.released_.wait(lock, [this] {
+    const auto other = cache_.claimed_.find(key_);
+    if (other != cache_.claimed_.end()) {
+      await(other->second);
+    }
+    return other == cache_.claimed_.end();
+  });
+  errand_.emplace(cache_.claimed_.try_emplace(key_, false).first->second);
 }
 
 ObjectCache::Claim::~Claim() {
+  errand_.reset();
   {
     const std::scoped_lock lock(cache_.mutex_);
     cache_.claimed_.erase(key_);

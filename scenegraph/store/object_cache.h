@@ -1,16 +1,18 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "scenegraph/store/object_store.h"
+#include "scenegraph/thread_priority.h"
 
 namespace stillframe::scenegraph {
 
@@ -49,7 +51,8 @@ class ObjectCache {
     return std::static_pointer_cast<const T>(findUncounted(key));
   }
   /// The right to make the product of a key, held until it is destroyed. Who asks meanwhile, for a second layer or view
-  /// of the same topic, waits, and then finds the product by peek(). Not from within the work of another claim.
+  /// of the same topic, waits, and then finds the product by peek(); whose work it is does not stand back any longer
+  /// then. Of the thread that makes it. Not from within the work of another claim.
   class Claim {
    public:
     Claim(ObjectCache& cache, CacheKey key);
@@ -60,6 +63,7 @@ class ObjectCache {
    private:
     ObjectCache& cache_;
     CacheKey key_;
+    std::optional<Errand> errand_;
   };
   /// Keeps a product; replaces an older one of the same key.
   void put(const CacheKey& key, std::shared_ptr<const void> product, std::size_t bytes);
@@ -86,8 +90,8 @@ class ObjectCache {
   std::size_t max_bytes_;
   std::uint64_t hits_ = 0;
   std::uint64_t misses_ = 0;
-  std::unordered_set<CacheKey, CacheKeyHash> claimed_;
-  std::condition_variable released_;  // a key of claimed_
+  std::unordered_map<CacheKey, std::atomic<bool>, CacheKeyHash> claimed_;  // whether it is awaited
+  std::condition_variable released_;                                       // a key of claimed_
 };
 
 }  // namespace stillframe::scenegraph

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <semaphore>
 #include <thread>
 #include <vector>
+
+#include "scenegraph/stopwatch.h"
+#include "scenegraph/thread_priority.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -116,6 +121,29 @@ TEST(ObjectCache, MayBeUsedFromManyThreads) {
     thread.join();
   }
   EXPECT_LE(cache.bytes(), 100U);
+}
+
+TEST(ObjectCache, HasAThreadThatStandsBackGoOnWhereAnotherAwaitsItsProduct) {
+  ObjectCache cache;
+  const Precedence drawing;
+  std::binary_semaphore is_claimed{0};
+  double paused_ms = 0.0;
+  std::thread ahead([&] {
+    standBack(StandBack::Spare);
+    const ObjectCache::Claim claim(cache, key(1));
+    is_claimed.release();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // by now it is awaited
+    for (int i = 0; i < 20; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      const auto start = std::chrono::steady_clock::now();
+      giveWay();
+      paused_ms += millisecondsSince(start);
+    }
+  });
+  is_claimed.acquire();
+  const ObjectCache::Claim wanted(cache, key(1));
+  ahead.join();
+  EXPECT_LT(paused_ms, 100.0) << "20 pauses are 200 ms";
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ Result<double> heapOfFurtherViewMib(const std::shared_ptr<scenegraph::Dataset>& 
     if (const auto drawn = views.back()->go(time); !drawn) {
       return std::unexpected(drawn.error());
     }
+    views.back()->rest();
   }
   return (heapOfViews() - before_mib) / kMoreViews;
 }
@@ -129,6 +130,7 @@ Result<void> benchScrub(const RecordingOptions& options, std::vector<BenchResult
   if (const auto first = view.go(*first_time); !first) {
     return std::unexpected(first.error());
   }
+  view.rest();
   if (const auto heap = reportHeap(dataset, *first_time, heapMib() - heap_before_mib, results); !heap) {
     return heap;
   }

@@ -1,6 +1,7 @@
 #include "tools/cli/bench_view.h"
 
 #include <algorithm>
+#include <semaphore>
 #include <thread>
 #include <utility>
 
@@ -85,6 +86,13 @@ Result<BenchStep> BenchView::go(tf::TimePoint time, const std::function<bool()>&
 Result<void> BenchView::draw() {
   const auto drawn = renderer_->show(scene_.root(), view_, {.point_limits = {.budget_ms = kBudgetMs}});
   return drawn ? Result<void>{} : failure(drawn.error().message);
+}
+
+void BenchView::rest() {
+  executor_->drain();  // spare jobs wait for the others, and come one after the other
+  const auto is_resting = std::make_shared<std::binary_semaphore>(0);
+  executor_->submitSpare([is_resting] { is_resting->release(); });
+  is_resting->acquire();
 }
 
 void BenchView::frameAll() {

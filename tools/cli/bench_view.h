@@ -38,6 +38,8 @@ class BenchView {
   [[nodiscard]] Result<BenchStep> go(tf::TimePoint time, const std::function<bool()>& is_there = {});
   /// Draws a frame of what is there.
   [[nodiscard]] Result<void> draw();
+  /// Waits for what is made in spare time.
+  void rest();
   /// What each layer says.
   [[nodiscard]] std::vector<std::string> statusCodes() const;
   /// What wakes the loop: something was loaded.

@@ -31,17 +31,16 @@ void ChunkCache::letGo(std::list<Item>& items, std::list<Item>::iterator item) {
   items.splice(items.begin(), items_, item);
 }
 
-std::shared_ptr<const ChunkCache::Chunk> ChunkCache::get(std::uint64_t key, const Unpack& unpack) {
+std::shared_ptr<const ChunkCache::Chunk> ChunkCache::get(std::uint64_t key, const std::function<Chunk()>& unpack) {
   std::shared_ptr<Slot> slot;
   {
     const std::lock_guard lock(mutex_);
     slot = slotOf(key);
   }
-  if (!scenegraph::standsBack()) {
-    slot->is_awaited = true;
-  }
+  scenegraph::await(slot->is_awaited);
   std::call_once(slot->once, [&] {
-    slot->chunk = unpack(slot->is_awaited);
+    const scenegraph::Errand errand(slot->is_awaited);
+    slot->chunk = unpack();
     std::list<Item> evicted;  // destroyed after the lock: a chunk may be large
     const std::size_t bytes = slot->chunk ? slot->chunk->size : 0;
     const std::lock_guard lock(mutex_);

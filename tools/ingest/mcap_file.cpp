@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 
+#include "scenegraph/thread_priority.h"
 #include "tools/ingest/field_reader.h"
 #include "tools/ingest/sentence.h"
 
@@ -248,7 +249,7 @@ std::expected<Buffer, std::string> McapFile::unpack(const ChunkPlace& place, con
                             {.completeness = place.is_cut ? Completeness::Prefix : Completeness::Whole,
                              .made = [&](std::span<const std::byte> made) { crc = is_checked ? crc32(made, crc) : 0; },
                              .pause = pause,
-                             .has_helper = header->uncompressed_size >= kWorthAHelper});
+                             .has_helper = header->uncompressed_size >= kWorthAHelper && !scenegraph::isSpare()});
   if (is_short) {
     return bad("the file became shorter");
   }

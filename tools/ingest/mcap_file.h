@@ -74,7 +74,8 @@ class McapFile {
   /// unpacking it when it has none or they are damaged. Not for a scanned file.
   void listMessages(std::size_t chunk, std::vector<FoundMessage>& out);
   /// The records of a chunk, CRC checked. The error is one sentence with offset and reason. `pause` is called every
-  /// fraction of a millisecond; a chunk of 8 MiB or more takes a second thread meanwhile.
+  /// fraction of a millisecond; a chunk of 8 MiB or more takes a second thread meanwhile, unless
+  /// it is read ahead in spare time.
   [[nodiscard]] std::expected<Buffer, std::string> unpack(
       std::size_t chunk, const std::function<void()>& pause = [] {}) const {
     return unpack(index_.chunks[chunk], pause);

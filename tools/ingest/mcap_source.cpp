@@ -92,13 +92,7 @@ std::expected<McapSource::Located, scenegraph::DecodeError> McapSource::locate(c
   if (place.chunk >= file.chunks().size()) {
     return std::unexpected(misplaced(place, file.file().path(), "no chunk"));
   }
-  auto chunk = chunks_.get(chunkKey(place), [&](const std::atomic<bool>& is_awaited) {
-    return file.unpack(place.chunk, [&is_awaited] {
-      if (!is_awaited) {
-        scenegraph::giveWay();
-      }
-    });
-  });
+  auto chunk = chunks_.get(chunkKey(place), [&] { return file.unpack(place.chunk, &scenegraph::giveWay); });
   if (!*chunk) {
     return std::unexpected(scenegraph::DecodeError{"BadChunk", chunk->error()});
   }

@@ -8,6 +8,7 @@
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QMenuBar>
+#include <QStatusBar>
 #include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -24,6 +25,7 @@ using stillframe::viewer::SceneDock;
 namespace {
 
 constexpr int kTick_ms = 50;
+constexpr int kDockHeight_px = 430;
 const QString kDock = QStringLiteral("Scene3DDock");
 
 }  // namespace
@@ -74,25 +76,51 @@ void HostWindow::addDock(const QString& title, const std::string& fixed_frame) {
   dock->panel().view().setFixedFrame(fixed_frame);
   frame->setWidget(dock);
   addDockWidget(Qt::TopDockWidgetArea, frame);
+  resizeDocks({frame}, {kDockHeight_px}, Qt::Vertical);
   connect(dock, &SceneDock::seekRequested, this, &HostWindow::seek);
   connect(dock, &SceneDock::playRequested, this, [this] { setLive(!isLive()); });
+  connect(dock, &SceneDock::picked, this, &HostWindow::tellPick);
   docks_.push_back(dock);
 }
 
 void HostWindow::buildMenu() {
   QMenu* menu = menuBar()->addMenu(QStringLiteral("&Layout"));
-  menu->addAction(QStringLiteral("&Save..."), this, [this] {
-    QFile file(QFileDialog::getSaveFileName(this));
-    if (file.open(QIODevice::WriteOnly)) {
-      file.write(layoutText().toUtf8());
-    }
-  });
-  menu->addAction(QStringLiteral("&Open..."), this, [this] {
-    QFile file(QFileDialog::getOpenFileName(this));
-    if (file.open(QIODevice::ReadOnly)) {
-      restoreLayout(QString::fromUtf8(file.readAll()));
-    }
-  });
+  menu->addAction(QStringLiteral("&Save..."), this, [this] { saveLayoutTo(QFileDialog::getSaveFileName(this)); });
+  menu->addAction(QStringLiteral("&Open..."), this, [this] { openLayout(QFileDialog::getOpenFileName(this)); });
+}
+
+/// Nothing for "", which a dialog gives that was left.
+void HostWindow::saveLayoutTo(const QString& name) {
+  QFile file(name);
+  if (name.isEmpty()) {
+    return;
+  }
+  const bool is_written = file.open(QIODevice::WriteOnly) && file.write(layoutText().toUtf8()) >= 0 && file.flush();
+  tell(is_written ? QStringLiteral("Saved ") + name : name + QStringLiteral(": ") + file.errorString());
+}
+
+void HostWindow::openLayout(const QString& name) {
+  QFile file(name);
+  if (name.isEmpty()) {
+    return;
+  }
+  if (!file.open(QIODevice::ReadOnly)) {
+    tell(name + QStringLiteral(": ") + file.errorString());
+  } else if (!restoreLayout(QString::fromUtf8(file.readAll()))) {
+    tell(name + QStringLiteral(": no layout, or a dock refuses its part"));
+  }
+}
+
+void HostWindow::tell(const QString& line) { statusBar()->showMessage(line); }
+
+void HostWindow::tellPick(const stillframe::scenegraph::PickResult& result) {
+  const glm::dvec3& at = result.point_in_fixed;
+  tell(QStringLiteral("%1 %2 %3 at %4, %5, %6")
+           .arg(QString::fromStdString(result.topic), QString::fromStdString(result.picked.kind),
+                QString::fromStdString(result.picked.id))
+           .arg(at.x)
+           .arg(at.y)
+           .arg(at.z));
 }
 
 void HostWindow::setGrowing(bool growing) { growing ? timer_->start(kTick_ms) : timer_->stop(); }

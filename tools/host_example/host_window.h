@@ -33,6 +33,9 @@ class HostWindow : public QMainWindow {
   /// The layout of the whole host, in which each dock is one element.
   [[nodiscard]] QString layoutText() const;
   bool restoreLayout(const QString& text);
+  /// To and from a file; what is wrong with it is told in the status bar.
+  void saveLayoutTo(const QString& name);
+  void openLayout(const QString& name);
 
   [[nodiscard]] const std::vector<stillframe::viewer::SceneDock*>& docks() const { return docks_; }
   [[nodiscard]] Plot& plot() { return *plot_; }
@@ -45,6 +48,8 @@ class HostWindow : public QMainWindow {
   void tick();
   void seek(stillframe::tf::TimePoint time);
   void chooseValue();
+  void tell(const QString& line);
+  void tellPick(const stillframe::scenegraph::PickResult& result);
 
   LiveRobot robot_;
   stillframe::viewer::DockContext context_;  // before the docks, which use it

@@ -3,9 +3,12 @@
 #include <QApplication>
 #include <QComboBox>
 #include <QElapsedTimer>
+#include <QFile>
 #include <QImage>
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <QStatusBar>
+#include <QTemporaryDir>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -61,9 +64,11 @@ class Check {
     window_.setGrowing(false);
     seekInThePlot();
     stepInADock();
+    pickInADock();
     showEveryValue();
     saveAndRestore();
     refuseABrokenLayout();
+    tellOfFiles();
     for (SceneDock* const dock : window_.docks()) {
       expect(dock->panel().view().glMessages() == 0, "OpenGL has nothing to say");
       expect(drawnPixels(pictureOf(*dock)) > 500, "the docks show the robot and its room");
@@ -124,6 +129,21 @@ class Check {
     expect(waitFor([&] { return docksAreAt(window_.time()); }), "both docks go there");
   }
 
+  QString told() const { return window_.statusBar()->currentMessage(); }
+
+  void pickInADock() {
+    SceneDock& dock = *window_.docks()[0];
+    dock.panel().view().frameOrigin("base_link");
+    pictureOf(dock);
+    const QPointF middle(dock.panel().view().width() / 2.0, dock.panel().view().height() / 2.0);
+    for (const QEvent::Type type : {QEvent::MouseButtonPress, QEvent::MouseButtonRelease}) {
+      QMouseEvent click(type, middle, dock.panel().view().mapToGlobal(middle), Qt::LeftButton,
+                        type == QEvent::MouseButtonPress ? Qt::LeftButton : Qt::NoButton, Qt::NoModifier);
+      QApplication::sendEvent(&dock.panel().view(), &click);
+    }
+    expect(waitFor([&] { return told().contains(QStringLiteral("base_link")); }), "the host tells what is clicked");
+  }
+
   void showEveryValue() {
     expect(window_.values().count() >= 11, "every number of the data can be plotted");
     for (int i = 0; i < window_.values().count(); ++i) {
@@ -161,6 +181,24 @@ class Check {
     expect(broken != saved && !window_.restoreLayout(broken), "a layout of another version is refused");
     expect(window_.docks()[0]->message().contains(QStringLiteral("99")), "the dock says why");
     expect(window_.layoutText() == saved, "nothing is lost by it");
+  }
+
+  void tellOfFiles() {
+    const QTemporaryDir folder;
+    const QString saved = window_.layoutText();
+    window_.saveLayoutTo(folder.filePath(QStringLiteral("layout.xml")));
+    window_.openLayout(folder.filePath(QStringLiteral("layout.xml")));
+    expect(window_.layoutText() == saved, "a layout comes back from its file");
+    window_.openLayout(folder.path());
+    expect(told().startsWith(folder.path()), "a folder given as a layout is told");
+    window_.saveLayoutTo(folder.path());
+    expect(told().startsWith(folder.path()), "and so is what cannot be written");
+    QFile rubbish(folder.filePath(QStringLiteral("rubbish.xml")));
+    expect(rubbish.open(QIODevice::WriteOnly) && rubbish.write("rubbish") > 0, "a file can be written");
+    rubbish.close();
+    window_.openLayout(rubbish.fileName());
+    expect(told().startsWith(rubbish.fileName()), "rubbish given as a layout is told");
+    expect(window_.layoutText() == saved, "and nothing is lost by any of it");
   }
 
   HostWindow& window_;

@@ -139,6 +139,19 @@ TEST_F(KeyboardTest, EnterGoesIntoTheEditorOfARowAndEscapeBackAndThenToTheView) 
   EXPECT_EQ(QApplication::focusWidget(), &view());
 }
 
+TEST_F(KeyboardTest, TheRowWhoseEditorHasTheFocusIsTheCurrentOne) {
+  openActive();
+  layers().selectLayer("grid");
+  layers().item("/points")->setExpanded(true);
+  EXPECT_EQ(layers().currentLayer(), "/points") << "what is opened is meant";
+  layers().selectLayer("grid");
+  QWidget* const box = firstControl(*layers().settingRows("/points")->editor("point_size"));
+  QTest::mouseClick(box, Qt::LeftButton);
+  EXPECT_EQ(layers().currentLayer(), "/points") << "else Remove would remove the grid";
+  key(Qt::Key_Return);
+  EXPECT_EQ(QApplication::focusWidget(), box) << "and Enter would go into another row";
+}
+
 TEST_F(KeyboardTest, AFrameThatIsHalfTypedIsForgottenAWholeOneIsTaken) {
   openActive();
   FramePicker& picker = window_->views().front()->framePicker();

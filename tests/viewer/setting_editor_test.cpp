@@ -98,8 +98,17 @@ TEST(SettingEditor, AChoiceAmongManyIsFoundByAPartOfItsName) {
   QTest::keyClicks(combo->lineEdit(), QStringLiteral("mag"));
   combo->completer()->popup()->hide();
   QTest::keyClick(combo->lineEdit(), Qt::Key_Return);
-  EXPECT_EQ(combo->currentText(), QStringLiteral("magma")) << "half a name is none";
-  EXPECT_EQ(heard, QStringLiteral("magma"));
+  EXPECT_EQ(combo->currentText(), QStringLiteral("magma"));
+  combo->lineEdit()->selectAll();
+  QTest::keyClicks(combo->lineEdit(), QStringLiteral("gray"));
+  combo->completer()->popup()->hide();
+  QTest::keyClick(combo->lineEdit(), Qt::Key_Return);
+  EXPECT_EQ(heard, QStringLiteral("grayscale")) << "the first that has it";
+  combo->lineEdit()->selectAll();
+  QTest::keyClicks(combo->lineEdit(), QStringLiteral("xyz"));
+  QTest::keyClick(combo->lineEdit(), Qt::Key_Return);
+  EXPECT_EQ(combo->currentText(), QStringLiteral("grayscale")) << "what no name has is none";
+  EXPECT_EQ(heard, QStringLiteral("grayscale"));
 }
 
 TEST(SettingEditor, TheWheelChangesNothingThatItMerelyPassesOver) {
@@ -148,6 +157,21 @@ TEST(NumberBox, TakesTypedNumbersOfAnyForm) {
   QTest::keyClicks(&box, QStringLiteral("nan"));
   QTest::keyClick(&box, Qt::Key_Return);
   EXPECT_DOUBLE_EQ(box.value(), -2.5e-3);
+}
+
+TEST(NumberBox, ANumberBeyondItsEndsBecomesTheEnd) {
+  NumberBox box(0.0, 100.0);
+  box.setSuffix(QStringLiteral(" %"));
+  const auto type = [&](const char* text) {
+    box.findChild<QLineEdit*>()->selectAll();
+    QTest::keyClicks(&box, QLatin1String(text));
+    QTest::keyClick(&box, Qt::Key_Return);
+    return box.value();
+  };
+  EXPECT_DOUBLE_EQ(type("150"), 100.0);
+  EXPECT_DOUBLE_EQ(type("-3"), 0.0);
+  EXPECT_DOUBLE_EQ(type("1e999"), 100.0) << "more than a double holds";
+  EXPECT_DOUBLE_EQ(type("-"), 100.0) << "no number";
 }
 
 class RangeEditorTest : public testing::Test {

@@ -1,9 +1,11 @@
 #include "viewer/layers/editor_keys.h"
 
+#include <QApplication>
 #include <QCheckBox>
 #include <QKeyEvent>
 #include <QSlider>
 #include <QTreeWidget>
+#include <QTreeWidgetItemIterator>
 #include <algorithm>
 
 namespace stillframe::viewer {
@@ -25,7 +27,25 @@ QWidget* firstControl(QWidget& editor) {
   return nullptr;
 }
 
-EditorKeys::EditorKeys(QTreeWidget& tree) : QObject(&tree), tree_(tree) { tree.installEventFilter(this); }
+EditorKeys::EditorKeys(QTreeWidget& tree) : QObject(&tree), tree_(tree) {
+  tree.installEventFilter(this);
+  connect(qApp, &QApplication::focusChanged, this, [this](const QWidget* /*old*/, const QWidget* now) {
+    if (now != nullptr && tree_.viewport()->isAncestorOf(now)) {
+      followFocus(now);
+    }
+  });
+}
+
+/// What is done to the current row, by a button or a key, means the one whose value was typed last.
+void EditorKeys::followFocus(const QWidget* focus) {
+  for (QTreeWidgetItemIterator row(&tree_); *row != nullptr; ++row) {
+    const QWidget* const editor = tree_.itemWidget(*row, 1);
+    if (editor != nullptr && (editor == focus || editor->isAncestorOf(focus))) {
+      tree_.setCurrentItem(*row);
+      return;
+    }
+  }
+}
 
 bool EditorKeys::enterRow(int key) {
   QTreeWidgetItem* const row = tree_.currentItem();

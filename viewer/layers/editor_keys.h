@@ -8,7 +8,8 @@ namespace stillframe::viewer {
 
 /// The keyboard in a tree whose rows have editors in their second column: Enter, F2 and Space on a row go into its
 /// editor (Space ticks a check box there and then), Escape in the editor comes back to the row and forgets what was
-/// half typed. Belongs to the tree. GUI thread.
+/// half typed. The row whose editor has the focus, by key or by mouse, is the current one. Belongs to the tree. GUI
+/// thread.
 class EditorKeys : public QObject {
   Q_OBJECT
 
@@ -20,6 +21,7 @@ class EditorKeys : public QObject {
 
  private:
   [[nodiscard]] bool enterRow(int key);
+  void followFocus(const QWidget* focus);
 
   QTreeWidget& tree_;
 };

@@ -98,6 +98,9 @@ LayerTree::LayerTree(QWidget* parent) : QTreeWidget(parent) {
   connect(this, &QTreeWidget::itemExpanded, this, [this](const QTreeWidgetItem* opened) {
     if (const auto row = std::ranges::find(rows_, opened, &Row::item); row != rows_.end()) {
       showDetails(*row, *scene_->findLayer(row->id));
+      if (currentLayer() != row->id) {
+        selectLayer(row->id);  // what is opened is meant by the buttons, too
+      }
     }
   });
 }

@@ -41,6 +41,15 @@ void NumberBox::stepBy(int steps) {
   setValue(QString::number(there, 'g', 12).toDouble());  // without the digits that adding left over
 }
 
+void NumberBox::fixup(QString& text) const {
+  bool is_number = false;
+  const double value = QLocale::c().toDouble(digits(text), &is_number);
+  // What is too large for a double is told as infinity and no number.
+  if ((is_number || std::isinf(value)) && !std::isnan(value)) {
+    text = textFromValue(std::clamp(value, minimum(), maximum()));
+  }
+}
+
 QValidator::State NumberBox::validate(QString& text, int& /*position*/) const {
   bool is_number = false;
   const double value = QLocale::c().toDouble(digits(text), &is_number);

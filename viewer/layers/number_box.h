@@ -5,7 +5,7 @@
 namespace stillframe::viewer {
 
 /// A box for any finite number: shows it with the fewest digits that tell it from its neighbours, 2 as "2" and 1e-9 as
-/// "1e-9", and steps by its size. GUI thread.
+/// "1e-9", and steps by its size. A number beyond its ends becomes the end. GUI thread.
 class NumberBox : public QDoubleSpinBox {
   Q_OBJECT
 
@@ -15,6 +15,7 @@ class NumberBox : public QDoubleSpinBox {
   [[nodiscard]] double valueFromText(const QString& text) const override;
   void stepBy(int steps) override;
   [[nodiscard]] QValidator::State validate(QString& text, int& position) const override;
+  void fixup(QString& text) const override;
 
  private:
   [[nodiscard]] QString digits(const QString& text) const;

@@ -236,6 +236,12 @@ QWidget* SettingEditor::makeChoice() {
   };
   connect(box, &QComboBox::textActivated, this, [this](const QString& text) { emitEdited(text.toStdString()); });
   if (box->isEditable()) {
+    connect(box->lineEdit(), &QLineEdit::returnPressed, this, [this, box] {
+      const QCompleter& found = *box->completer();
+      if (spec_.choices_only && box->findText(box->currentText()) < 0 && found.completionCount() > 0) {
+        box->setEditText(found.currentCompletion());  // the first of those that are shown
+      }
+    });
     connect(box->lineEdit(), &QLineEdit::editingFinished, this, [this, box] {
       if (spec_.choices_only && box->findText(box->currentText()) < 0) {
         show_(text_);  // half a name is none

@@ -10,6 +10,7 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMimeData>
+#include <QScrollBar>
 #include <QTest>
 #include <QToolButton>
 
@@ -255,6 +256,31 @@ TEST_F(LayerPanelTest, ShowsOneLayerOnlyAndAllAgain) {
   EXPECT_EQ(tree_.item("/points")->checkState(0), Qt::Unchecked);
   tree_.showAllLayers();
   EXPECT_TRUE(scene_.findLayer("/points")->layer->isVisible());
+}
+
+TEST_F(LayerPanelTest, TheListStaysWhereItIsScrolledToAndAMovedLayerComesIntoSight) {
+  showDefaults(1_s);
+  panel_.resize(320, 260);
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&panel_));
+  for (const char* const id : {"grid", "tf", "/points"}) {
+    tree_.item(id)->setExpanded(true);
+  }
+  const auto is_in_sight = [&](const char* id) {
+    return tree_.viewport()->rect().contains(tree_.visualItemRect(tree_.item(id)).topLeft());
+  };
+  tree_.selectLayer("/points");
+  ASSERT_TRUE(is_in_sight("/points"));
+  click("moveLayerUp");
+  EXPECT_TRUE(is_in_sight("/points"));
+  click("duplicateLayer");
+  EXPECT_TRUE(is_in_sight("/points#2"));
+  QScrollBar& scroll = *tree_.verticalScrollBar();
+  scroll.setValue(scroll.maximum() / 2);
+  const int scrolled = scroll.value();
+  ASSERT_GT(scrolled, 100);
+  scene_.removeLayer("/points#2");  // as undo does
+  tree_.refresh();
+  EXPECT_EQ(scroll.value(), scrolled);
 }
 
 TEST_F(LayerPanelTest, OpenRowsStayOpenWhenTheListIsBuiltAnew) {

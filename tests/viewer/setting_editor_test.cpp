@@ -343,6 +343,10 @@ TEST_F(SettingRowsTest, RowsStayAsLongAsTheSpecsDo) {
   rows.show(specs, texts);
   EXPECT_EQ(rows.row("Links", "")->childCount(), 1);
   EXPECT_TRUE(rows.row("Links", "")->isExpanded()) << "what was open stays open";
+  SettingRows anew{tree, *layer};
+  anew.setOpenGroups(rows.openGroups());
+  anew.show(specs, texts);
+  EXPECT_TRUE(anew.row("Links", "")->isExpanded()) << "in rows made anew, too";
 }
 
 }  // namespace

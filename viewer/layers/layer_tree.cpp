@@ -7,7 +7,9 @@
 #include <QScrollBar>
 #include <QSignalBlocker>
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "scenegraph/how_many.h"
 #include "scenegraph/layer_cost.h"
@@ -129,7 +131,10 @@ void LayerTree::refresh() {
   const auto& layers = scene_->layers();
   const auto is_row_of = [](const Row& row, const auto& slot) { return row.layer == slot->layer.get(); };
   // Layers are appended as topics appear; anything else (a removal, another order) rebuilds.
-  if (rows_.size() > layers.size() || !std::equal(rows_.begin(), rows_.end(), layers.begin(), is_row_of)) {
+  const int scrolled = verticalScrollBar()->value();
+  const bool is_new =
+      rows_.size() > layers.size() || !std::equal(rows_.begin(), rows_.end(), layers.begin(), is_row_of);
+  if (is_new) {
     rebuild();
   }
   for (std::size_t i = rows_.size(); i < layers.size(); ++i) {
@@ -148,6 +153,10 @@ void LayerTree::refresh() {
     if (row.item->isExpanded()) {
       showDetails(row, *layers[i]);
     }
+  }
+  if (is_new) {
+    executeDelayedItemsLayout();  // before it, nothing is as far down as it was
+    verticalScrollBar()->setValue(scrolled);
   }
 }
 
@@ -185,20 +194,21 @@ void LayerTree::setDrawTimes(std::vector<std::optional<double>> times) {
 
 void LayerTree::rebuild() {
   std::set<std::string> open;
+  std::map<std::string, std::set<std::string>> groups;
   for (const Row& row : rows_) {
+    groups[row.id] = row.settings->openGroups();
     if (row.item->isExpanded()) {
       open.insert(row.id);
     }
   }
   const std::string current = currentLayer();
-  const int scrolled = verticalScrollBar()->value();
   clearRows();
   for (const auto& slot : scene_->layers()) {
     rows_.push_back(addRow(*slot));
     rows_.back().item->setExpanded(open.contains(slot->id));
+    rows_.back().settings->setOpenGroups(groups[slot->id]);
   }
-  selectLayer(current);
-  verticalScrollBar()->setValue(scrolled);
+  setCurrentItem(item(current));
 }
 
 LayerTree::Row LayerTree::addRow(const scenegraph::LayerSlot& slot) {
@@ -289,7 +299,13 @@ scenegraph::LayerSlot* LayerTree::currentSlot() const {
   return scene_ == nullptr ? nullptr : scene_->findLayer(currentLayer());
 }
 
-void LayerTree::selectLayer(const std::string& id) { setCurrentItem(item(id)); }
+void LayerTree::selectLayer(const std::string& id) {
+  QTreeWidgetItem* const row = item(id);
+  setCurrentItem(row);
+  if (row != nullptr) {
+    scrollToItem(row);  // the current one already has not been scrolled to by that
+  }
+}
 
 void LayerTree::onItemChanged(QTreeWidgetItem* item) {
   for (const Row& row : rows_) {

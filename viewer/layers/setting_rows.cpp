@@ -1,6 +1,7 @@
 #include "viewer/layers/setting_rows.h"
 
 #include <QSignalBlocker>
+#include <utility>
 
 #include "viewer/layers/range_editor.h"
 #include "viewer/layers/setting_editor.h"
@@ -32,10 +33,7 @@ void SettingRows::show(const std::vector<SettingSpec>& specs, const SettingTexts
 }
 
 void SettingRows::build() {
-  std::map<std::string, bool> was_open;
-  for (const auto& [name, group] : groups_) {
-    was_open[name] = group.item->isExpanded();
-  }
+  open_ = openGroups();
   for (QTreeWidgetItem* const item : items_) {
     delete item;  // takes its widget and what is beneath along
   }
@@ -55,7 +53,7 @@ void SettingRows::build() {
   }
   for (const auto& [name, group] : groups_) {
     group.item->setText(0, QStringLiteral("%1 (%2)").arg(QString::fromStdString(name)).arg(group.things.size()));
-    group.item->setExpanded(was_open[name]);
+    group.item->setExpanded(open_.contains(name));
   }
   orderTabs(tree_);
 }
@@ -144,6 +142,21 @@ bool SettingRows::takeCheck(QTreeWidgetItem* item) {
     }
   }
   return false;
+}
+
+std::set<std::string> SettingRows::openGroups() const {
+  std::set<std::string> names = open_;
+  for (const auto& [name, group] : groups_) {
+    group.item->isExpanded() ? (void)names.insert(name) : (void)names.erase(name);
+  }
+  return names;
+}
+
+void SettingRows::setOpenGroups(std::set<std::string> names) {
+  open_ = std::move(names);
+  for (const auto& [name, group] : groups_) {
+    group.item->setExpanded(open_.contains(name));
+  }
 }
 
 SettingEditor* SettingRows::editor(const std::string& key) const {

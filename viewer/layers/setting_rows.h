@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QTreeWidget>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ class SettingRows : public QObject {
   [[nodiscard]] SettingEditor* editor(const std::string& key) const;
   /// nullptr for a layer that colours nothing by value.
   [[nodiscard]] RangeEditor* range() const noexcept { return range_; }
+  /// Groups whose row is open. Those named stay open, or are opened when they come; the others are closed.
+  [[nodiscard]] std::set<std::string> openGroups() const;
+  void setOpenGroups(std::set<std::string> names);
   /// The row of a thing ("Links", "wheel"), or of a group ("Links", ""); nullptr when there is none.
   [[nodiscard]] QTreeWidgetItem* row(const std::string& group, const std::string& item) const;
 
@@ -59,6 +63,7 @@ class SettingRows : public QObject {
   std::vector<QTreeWidgetItem*> items_;  // beneath parent_
   std::map<std::string, SettingEditor*> editors_;
   std::map<std::string, Group> groups_;
+  std::set<std::string> open_;  // of those that are not there yet, too
   RangeEditor* range_ = nullptr;
 };
 

@@ -126,6 +126,24 @@ TEST_F(CameraBarTest, DisplayFrameIsChosenApartFromTheFixedFrame) {
   EXPECT_EQ(panel_.view().scene()->fixedFrame(), "map");
 }
 
+TEST_F(CameraBarTest, ADisplayFrameWithoutAPlaceNowSaysSo) {
+  panel_.view().setDisplayFrame("base_link");
+  panel_.view().setFollow(FollowMode::Heading);
+  settle();
+  const FramePicker& picker = bar().displayFrame();
+  const QColor usual = picker.lineEdit()->palette().color(QPalette::Text);
+  EXPECT_FALSE(picker.toolTip().contains(QStringLiteral("no place")));
+  panel_.view().setTime(TimePoint{-1_s});
+  settle();
+  EXPECT_TRUE(picker.toolTip().contains(QStringLiteral("\"base_link\" has no place")))
+      << picker.toolTip().toStdString();
+  EXPECT_NE(picker.lineEdit()->palette().color(QPalette::Text), usual);
+  panel_.view().setTime(TimePoint{5_s});
+  settle();
+  EXPECT_FALSE(picker.toolTip().contains(QStringLiteral("no place")));
+  EXPECT_EQ(picker.lineEdit()->palette().color(QPalette::Text), usual);
+}
+
 TEST_F(CameraBarTest, SavedViewsAreInTheMenu) {
   panel_.view().saveView("over there");
   Q_EMIT bar().views().aboutToShow();

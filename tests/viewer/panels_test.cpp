@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <QAbstractItemView>
+#include <QCompleter>
 #include <QLineEdit>
 #include <QTest>
 #include <QTreeWidget>
@@ -52,6 +54,25 @@ TEST(FramePicker, TypedNameIsPicked) {
   picker.lineEdit()->clear();
   QTest::keyClick(picker.lineEdit(), Qt::Key_Return);
   EXPECT_EQ(picked.frame, std::nullopt);
+}
+
+TEST(FramePicker, APartOfOneNameIsThatFrameAPartOfSeveralIsNone) {
+  FramePicker picker("Fixed frame", "the frame that stands still");
+  Picked picked;
+  listen(picker, picked);
+  picker.setFrames({"odom", "base_link", "base_scan"});
+  picker.setCurrent(std::nullopt, "odom");
+  const auto type = [&](const char* text) {
+    picker.lineEdit()->selectAll();
+    QTest::keyClicks(picker.lineEdit(), QLatin1String(text));
+    picker.completer()->popup()->hide();
+    QTest::keyClick(picker.lineEdit(), Qt::Key_Return);
+    return picked.frame;
+  };
+  EXPECT_EQ(type("link"), "base_link");
+  EXPECT_EQ(type("base"), "base") << "one that may come yet";
+  EXPECT_EQ(type("od"), "odom");
+  EXPECT_EQ(type("map"), "map");
 }
 
 TEST(FramePicker, MissingFrameIsShownAsMissingUntilItAppears) {

@@ -86,10 +86,26 @@ void FramePicker::showCurrent() {
   QPalette colors;
   if (is_missing_) {
     colors.setColor(QPalette::Text, QColor(0xe5, 0x53, 0x4b));
+  } else if (!is_placed_) {
+    colors.setColor(QPalette::Text, palette().color(QPalette::Disabled, QPalette::Text));
   }
   lineEdit()->setPalette(colors);
-  setToolTip(is_missing_ ? tr("%1 \"%2\" does not exist in this recording").arg(what_, QString::fromStdString(*chosen_))
-                         : tr("%1: %2. Type to search.").arg(what_, meaning_));
+  if (is_missing_) {
+    setToolTip(tr("%1 \"%2\" does not exist in this recording").arg(what_, QString::fromStdString(*chosen_)));
+  } else if (!is_placed_) {
+    setToolTip(tr("%1 \"%2\" has no place at this time").arg(what_, currentText()));
+  } else {
+    setToolTip(tr("%1: %2. Type to search.").arg(what_, meaning_));
+  }
+}
+
+void FramePicker::setPlaced(bool placed) {
+  if (placed != is_placed_) {
+    is_placed_ = placed;
+    if (!lineEdit()->isModified()) {
+      showCurrent();
+    }
+  }
 }
 
 /// Left half typed, it would name a frame that is not the one in use.
@@ -100,11 +116,23 @@ void FramePicker::focusOutEvent(QFocusEvent* event) {
   }
 }
 
+/// A part of one frame's name means that frame; what is in none, or in several, a frame that may come yet.
 void FramePicker::pickText() {
-  const QString text = lineEdit()->text().trimmed();
+  QString text = lineEdit()->text().trimmed();
   if (text.isEmpty() || text == itemText(0)) {
     Q_EMIT picked(std::nullopt);
     return;
+  }
+  QStringList found;
+  const bool is_whole = findText(text) >= 0;
+  for (int i = 1; i < count() && !is_whole; ++i) {
+    if (itemText(i).contains(text, Qt::CaseInsensitive)) {
+      found << itemText(i);
+    }
+  }
+  if (found.size() == 1) {
+    text = found.front();
+    setEditText(text);
   }
   Q_EMIT picked(text.toStdString());
 }

@@ -21,6 +21,8 @@ class FramePicker : public QComboBox {
   /// What the view uses now: the frame chosen by hand, if any, and the frame automatic choice gives.
   void setCurrent(const std::optional<std::string>& chosen, const std::string& automatic);
   [[nodiscard]] bool isMissing() const noexcept { return is_missing_; }
+  /// Whether that frame has a place at the time shown; one without is dimmed, and the tool tip says so.
+  void setPlaced(bool placed);
   [[nodiscard]] int frameCount() const { return count() - 1; }
 
  Q_SIGNALS:
@@ -39,6 +41,7 @@ class FramePicker : public QComboBox {
   std::optional<std::string> chosen_;
   std::string automatic_;
   bool is_missing_ = false;
+  bool is_placed_ = true;
 };
 
 }  // namespace stillframe::viewer

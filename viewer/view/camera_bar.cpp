@@ -107,7 +107,9 @@ void CameraBar::refresh() {
   if (buffer.frameCount() != static_cast<std::size_t>(display_frame_->frameCount())) {
     display_frame_->setFrames(buffer.frames());
   }
-  display_frame_->setCurrent(view_.camera().displayFrame(), scene->fixedFrame());
+  const std::optional<std::string>& frame = view_.camera().displayFrame();
+  display_frame_->setCurrent(frame, scene->fixedFrame());
+  display_frame_->setPlaced(!frame || scene->frames().fixedFromFrame(*frame).has_value());
 }
 
 /// Qt moves no widget into the extension's menu.

@@ -69,7 +69,8 @@ TEST_F(FramesPanelTest, ABoxHidesItsFrameAndDoesNotMoveTheCamera) {
 TEST_F(FramesPanelTest, RowsStayAsTheyWereLeftWhenFramesCome) {
   panel_.tree().setCurrentItem(panel_.item("odom"));
   panel_.item("base_link")->setExpanded(false);
-  ASSERT_TRUE(dataset_->transforms()->insert({.parent = "odom", .child = "camera", .stamp = TimePoint{5_s}}));
+  ASSERT_TRUE(dataset_->transforms()->insert(
+      {.parent = "odom", .child = "camera", .stamp = TimePoint{5_s}, .parent_from_child = {}}));
   panel_.refreshNow();
   ASSERT_NE(panel_.item("camera"), nullptr);
   EXPECT_EQ(panel_.tree().currentItem(), panel_.item("odom"));

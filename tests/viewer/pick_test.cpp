@@ -151,6 +151,21 @@ TEST_F(WidgetPickTest, OutsideCollapsedAndGoneAreNothing) {
   settle();
 }
 
+TEST_F(WidgetPickTest, PanelTellsThePlaceInANewDisplayFrameAtOnce) {
+  InspectPanel panel;
+  panel.setView(&widget_);
+  click(at(-0.5, 0.0));
+  click(at(0.5, 0.5), Qt::ShiftModifier);
+  ASSERT_FALSE(panel.copyText().contains(QStringLiteral("in base_link\t")));
+  widget_.setDisplayFrame("base_link");
+  settle();
+  EXPECT_TRUE(panel.copyText().contains(QStringLiteral("in base_link\t"))) << "while the time stands still";
+  EXPECT_EQ(panel.measurements().headerItem()->text(0), QStringLiteral("Distance in map"));
+  widget_.setFixedFrame("base_link");
+  settle();
+  EXPECT_EQ(panel.measurements().headerItem()->text(0), QStringLiteral("Distance in base_link"));
+}
+
 TEST_F(WidgetPickTest, PanelShowsCopiesAndRemoves) {
   InspectPanel panel;
   panel.setView(&widget_);

@@ -111,14 +111,23 @@ void InspectPanel::setView(SceneWidget* view) {
   view_ = view;
   if (view_ != nullptr) {
     connect(view_, &SceneWidget::sceneUpdated, this, &InspectPanel::refresh);
+    connect(view_, &SceneWidget::cameraChanged, this, &InspectPanel::onCamera);
     connect(&view_->picks(), &ViewPicks::changed, this, &InspectPanel::refresh);
   }
   refresh();
 }
 
+/// Told of every move; only another display frame changes what is shown.
+void InspectPanel::onCamera() {
+  if (view_->camera().displayFrame().value_or(std::string()) != display_frame_) {
+    refresh();
+  }
+}
+
 void InspectPanel::refresh() {
   const scenegraph::Scene* const scene = view_ != nullptr ? view_->scene() : nullptr;
   const auto* const picked = scene != nullptr && view_->picks().selected() ? &*view_->picks().selected() : nullptr;
+  display_frame_ = scene != nullptr ? view_->camera().displayFrame().value_or(std::string()) : std::string();
   int count = 0;
   if (picked != nullptr) {
     const std::string display = view_->camera().displayFrame().value_or(scene->frames().fixedFrame());
@@ -136,6 +145,7 @@ void InspectPanel::refreshMeasurements() {
   const scenegraph::Scene* const scene = view_ != nullptr ? view_->scene() : nullptr;
   int count = 0;
   if (scene != nullptr) {
+    measurements_->headerItem()->setText(0, tr("Distance in %1").arg(QString::fromStdString(scene->fixedFrame())));
     for (const scenegraph::PickMarks::Pair& pair : view_->picks().measured()) {
       const auto length = scenegraph::measureNow(*scene, pair);
       const auto nameOf = [](const scenegraph::PickResult& end) {

@@ -2,6 +2,7 @@
 
 #include <QPointer>
 #include <QWidget>
+#include <string>
 
 class QLabel;
 class QTreeWidget;
@@ -33,11 +34,13 @@ class InspectPanel : public QWidget {
 
  private:
   void refresh();
+  void onCamera();
   void refreshMeasurements();
   void copy();
   void removeMeasurements();
 
   QPointer<SceneWidget> view_;
+  std::string display_frame_;  // whose coordinates are shown
   QLabel* hint_ = nullptr;
   QTreeWidget* rows_ = nullptr;
   QTreeWidget* measurements_ = nullptr;

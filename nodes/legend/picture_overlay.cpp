@@ -154,20 +154,21 @@ void PictureOverlay::addPicks(const scenegraph::PlacedPicks& picks) {
 }
 
 void PictureOverlay::addLength(const scenegraph::PlacedPicks::Line& line) {
-  const glm::dvec2 middle = (line.from_px + line.to_px) / 2.0;
   const double text_height = kLineHeight * scale_;
   const double padding = kTextPadding * scale_;
-  if (!(middle.x > 0.0 && middle.y > 0.0 && middle.x < width_ && middle.y < height_)) {
-    return;
-  }
   GlyphCanvas ruler(0, 0);
   const int width = static_cast<int>(std::ceil(ruler.textWidth(line.text, text_height) + 2.0 * padding));
   const int height = static_cast<int>(std::ceil(text_height * 1.35 + padding));
+  const auto corner =
+      scenegraph::textCorner(line, {width, height}, {static_cast<double>(width_), static_cast<double>(height_)});
+  if (!corner) {
+    return;
+  }
   GlyphCanvas canvas(width, height);
   canvas.fillRounded(kLineCard, kLineCorner * scale_);
   canvas.drawText(line.text, padding, text_height + padding / 2.0, text_height, kStrokes.back().first);
-  lay({width, height, canvas.takePixels()}, static_cast<int>(std::lround(middle.x - width / 2.0)),
-      static_cast<int>(std::lround(middle.y - 1.5 * height)));
+  lay({width, height, canvas.takePixels()}, static_cast<int>(std::lround(corner->x)),
+      static_cast<int>(std::lround(corner->y)));
 }
 
 }  // namespace stillframe::nodes

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio>
+#include <glm/common.hpp>
 #include <set>
 
 namespace stillframe::scenegraph {
@@ -20,6 +21,17 @@ PlacedPicks placePicks(const Scene& scene, const CameraView& view, const Picture
     }
   }
   return placed;
+}
+
+std::optional<glm::dvec2> textCorner(const PlacedPicks::Line& line, const glm::dvec2& text_px,
+                                     const PictureSize& size) {
+  const glm::dvec2 picture_px(size.width_px, size.height_px);
+  const glm::dvec2 middle = (line.from_px + line.to_px) / 2.0;
+  if (!(middle.x > 0.0 && middle.y > 0.0 && middle.x < picture_px.x && middle.y < picture_px.y)) {
+    return std::nullopt;
+  }
+  const glm::dvec2 wanted = middle - glm::dvec2(0.5, 1.5) * text_px;
+  return glm::clamp(wanted, glm::dvec2(0.0), glm::max(picture_px - text_px, glm::dvec2(0.0)));
 }
 
 std::optional<Measurement> measureNow(const Scene& scene, const PickMarks::Pair& pair) {

@@ -30,6 +30,11 @@ struct PlacedPicks {
 [[nodiscard]] PlacedPicks placePicks(const Scene& scene, const CameraView& view, const PictureSize& size,
                                      const PickMarks& picks);
 
+/// Upper left corner of a line's text of `text_px` pixels: above the middle of the line, moved so that all of it lies
+/// in the picture, as far as it has room. nullopt where that middle is not in the picture.
+[[nodiscard]] std::optional<glm::dvec2> textCorner(const PlacedPicks::Line& line, const glm::dvec2& text_px,
+                                                   const PictureSize& size);
+
 /// In the fixed frame, as its frames are now; nullopt when one of them has no place.
 [[nodiscard]] std::optional<Measurement> measureNow(const Scene& scene, const PickMarks::Pair& pair);
 

@@ -77,7 +77,12 @@ void ViewPicks::paintEvent(QPaintEvent* /*event*/) {
   for (const auto& line : placed_.lines) {
     const QString text = QString::fromStdString(line.text);
     QRectF box = painter.fontMetrics().boundingRect(text).adjusted(-5, -3, 5, 3);
-    box.moveCenter(pointOf((line.from_px + line.to_px) / 2.0) - QPointF(0.0, box.height()));
+    const auto corner = scenegraph::textCorner(line, {box.width(), box.height()},
+                                               {static_cast<double>(width()), static_cast<double>(height())});
+    if (!corner) {
+      continue;
+    }
+    box.moveTopLeft(pointOf(*corner));
     painter.fillRect(box, QColor(20, 22, 26, 200));
     painter.setPen(kColor);
     painter.drawText(box, Qt::AlignCenter, text);

@@ -102,6 +102,19 @@ TEST(PictureOverlay, LengthsAreWrittenBesideTheirLines) {
   EXPECT_LT(card[0], 0.5F);
 }
 
+TEST(PictureOverlay, TheTextOfALengthLiesInThePicture) {
+  const glm::dvec2 text_px{80.0, 20.0};
+  const auto corner = [&](glm::dvec2 middle, scenegraph::PictureSize size) {
+    return scenegraph::textCorner({middle - glm::dvec2(200.0, 3.0), middle + glm::dvec2(200.0, 3.0), "2 m"}, text_px,
+                                  size);
+  };
+  EXPECT_EQ(corner({160.0, 120.0}, {320.0, 240.0}), glm::dvec2(120.0, 90.0)) << "above the middle";
+  EXPECT_EQ(corner({10.0, 5.0}, {320.0, 240.0}), glm::dvec2(0.0, 0.0));
+  EXPECT_EQ(corner({310.0, 239.0}, {320.0, 240.0}), glm::dvec2(240.0, 209.0));
+  EXPECT_EQ(corner({30.0, 20.0}, {60.0, 30.0}), glm::dvec2(0.0, 0.0)) << "in a picture that is smaller";
+  EXPECT_EQ(corner({-1.0, 120.0}, {320.0, 240.0}), std::nullopt);
+}
+
 TEST(PictureOverlay, MixesAsScreensDo) {
   auto rgba = plain(1.0F, 1.0F);
   PictureOverlay overlay(rgba, kWidth, kHeight, 1.0);

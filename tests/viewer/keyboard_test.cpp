@@ -205,8 +205,10 @@ TEST_F(KeyboardTest, F6GoesRoundThePanels) {
   key(Qt::Key_F6);
   EXPECT_EQ(QApplication::focusWidget(), &layers());
   EXPECT_NE(layers().currentItem(), nullptr);
+  EXPECT_EQ(layers().selectedItems().size(), 1) << "one sees where the keys go";
   key(Qt::Key_F6);
   EXPECT_EQ(focused(), QStringLiteral("frames"));
+  EXPECT_EQ(qobject_cast<QTreeWidget*>(QApplication::focusWidget())->selectedItems().size(), 1);
   key(Qt::Key_F6);
   EXPECT_EQ(focused(), QStringLiteral("timeSlider"));
   key(Qt::Key_F6);
@@ -264,7 +266,12 @@ TEST_F(KeyboardTest, ThePointInTheMiddleIsPickedAndMeasured) {
   settle();
   key(Qt::Key_P);
   EXPECT_FALSE(view().picks().selected());
-  EXPECT_TRUE(view().findChild<HoverLabel*>(QStringLiteral("hover"))->text().contains(QStringLiteral("nothing")));
+  const HoverLabel& label = *view().findChild<HoverLabel*>(QStringLiteral("hover"));
+  EXPECT_TRUE(label.text().contains(QStringLiteral("nothing")));
+  EXPECT_TRUE(label.isVisible());
+  key(Qt::Key_Question);
+  EXPECT_FALSE(label.isVisible()) << "it would lie over the help";
+  key(Qt::Key_Escape);
   view().scene()->findLayer("/points")->layer->setVisible(true);
   view().scene()->findLayer("grid")->layer->setVisible(true);
   view().requestTick();

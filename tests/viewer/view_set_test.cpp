@@ -284,6 +284,24 @@ TEST_F(LayoutFileTest, OpenedLayoutReplacesTheViewsOfAWindow) {
   expectRestored();
 }
 
+TEST_F(LayoutFileTest, WhatSeveralViewsMissIsOneLine) {
+  auto layout = scenegraph::readLayout(file_.toStdString());
+  ASSERT_TRUE(layout);
+  const auto of = scenegraph::viewsOf(*layout);
+  for (scenegraph::ViewLayout* const view : of) {
+    view->layers.layers.push_back({.id = "/everywhere", .title = {}, .settings = {}});
+  }
+  of[1]->layers.layers.push_back({.id = "/second", .title = {}, .settings = {}});
+  of[1]->layers.layers.push_back({.id = "/some", .title = {}, .settings = {}});
+  of[3]->layers.layers.push_back({.id = "/some", .title = {}, .settings = {}});
+  open({.files = {"robot.mcap"}, .time = "+3", .layout = *layout});
+  const QStringList lines = window_->messageBar().text().split(QLatin1Char('\n'));
+  ASSERT_EQ(lines.size(), 3) << window_->messageBar().text().toStdString();
+  EXPECT_TRUE(lines[0].startsWith(QStringLiteral("there is no topic '/everywhere'"))) << lines[0].toStdString();
+  EXPECT_TRUE(lines[1].startsWith(QStringLiteral("view 2: there is no topic '/second'"))) << lines[1].toStdString();
+  EXPECT_TRUE(lines[2].startsWith(QStringLiteral("views 2, 4: there is no topic '/some'"))) << lines[2].toStdString();
+}
+
 TEST_F(LayoutFileTest, WindowsComeBackToTheirPlacesWhileAScreenShowsThem) {
   window_->move(120, 90);
   set().windows()[0]->move(333, 222);

@@ -43,7 +43,9 @@ void HoverLabel::showAt(QPointF cursor) {
 }
 
 bool HoverLabel::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Hide || event->type() == QEvent::WindowDeactivate || event->type() == QEvent::FocusOut) {
+  // A key moves the camera, opens the help, or picks anew.
+  if (event->type() == QEvent::Hide || event->type() == QEvent::WindowDeactivate || event->type() == QEvent::FocusOut ||
+      event->type() == QEvent::KeyPress) {
     hide();
   }
   return QLabel::eventFilter(watched, event);

@@ -3,6 +3,8 @@
 #include <QFileDialog>
 #include <QMenu>
 #include <QSaveFile>
+#include <QStatusBar>
+#include <algorithm>
 
 #include "viewer/window/inspector_window.h"
 #include "viewer/window/message_bar.h"
@@ -94,17 +96,31 @@ bool InspectorWindow::saveLayout(const std::filesystem::path& file) {
     return false;
   }
   options_.layout_file = file;
+  statusBar()->showMessage(tr("Saved %1").arg(named(file)));
   return true;
 }
 
-/// What the views' layouts name and the recording does not have.
+/// What the views' layouts name and the recording does not have; what several views miss is one line.
 void InspectorWindow::tellNotRestored() {
-  QStringList lines;
+  struct Missing {
+    QString line;
+    QStringList views;
+  };
+  std::vector<Missing> missing;
   for (std::size_t i = 0; i < views().size(); ++i) {
     for (const std::string& line : views()[i]->notRestored()) {
       const QString text = QString::fromStdString(line);
-      lines += views().size() == 1 ? text : tr("view %1: %2").arg(i + 1).arg(text);
+      const auto known = std::ranges::find(missing, text, &Missing::line);
+      Missing& one = known == missing.end() ? missing.emplace_back(Missing{.line = text, .views = {}}) : *known;
+      one.views += QString::number(i + 1);
     }
+  }
+  QStringList lines;
+  for (const auto& [line, of] : missing) {
+    const bool is_of_all = static_cast<std::size_t>(of.size()) == views().size();
+    lines += is_of_all
+                 ? line
+                 : (of.size() == 1 ? tr("view %1: %2") : tr("views %1: %2")).arg(of.join(QStringLiteral(", ")), line);
   }
   if (const auto count = static_cast<std::size_t>(lines.size()); count > kMostLines) {
     lines.resize(kMostLines);

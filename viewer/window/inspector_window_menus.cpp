@@ -171,8 +171,10 @@ void InspectorWindow::focusNextPanel(int step) {
   const Panel& next = panels[static_cast<std::size_t>((here + step + count) % count)];
   next.whole->activateWindow();
   next.first->setFocus(Qt::ShortcutFocusReason);
-  if (auto* const rows = qobject_cast<QTreeWidget*>(next.first); rows != nullptr && rows->currentItem() == nullptr) {
-    rows->setCurrentItem(rows->topLevelItem(0));
+  if (auto* const rows = qobject_cast<QTreeWidget*>(next.first); rows != nullptr && rows->selectedItems().isEmpty()) {
+    // Qt makes the first one current with the focus, but hardly shows it.
+    rows->setCurrentItem(rows->currentItem() != nullptr ? rows->currentItem() : rows->topLevelItem(0), 0,
+                         QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
   }
 }
 

@@ -163,6 +163,39 @@ TEST_F(InspectorWindowTest, AScreenshotHasEveryPoint) {
   EXPECT_EQ(pictures[0], pictures[1]) << "none of them was half drawn";
 }
 
+TEST_F(InspectorWindowTest, WhatWasAskedForAndIsNotThereIsTold) {
+  open({.files = {"robot.mcap"},
+        .time = "+1000",
+        .fixed_frame = "nowhere",
+        .display_frame = "nothing",
+        .layers = {.layers = {{.id = "/radar", .settings = {}}}}});
+  const QStringList lines = window_->messageBar().text().split(QLatin1Char('\n'));
+  ASSERT_EQ(lines.size(), 4) << window_->messageBar().text().toStdString();
+  EXPECT_EQ(lines[0], QStringLiteral("Time +1000 is outside the recording, which spans +0 to +10.000"));
+  EXPECT_TRUE(lines[1].startsWith(QStringLiteral("there is no topic '/radar'"))) << lines[1].toStdString();
+  EXPECT_TRUE(lines[2].startsWith(QStringLiteral("fixed frame 'nowhere' is not in"))) << lines[2].toStdString();
+  EXPECT_TRUE(lines[3].startsWith(QStringLiteral("display frame 'nothing' is not in"))) << lines[3].toStdString();
+}
+
+TEST_F(InspectorWindowTest, ARecordingWithNothingToSeeSaysSo) {
+  for (const bool has_messages : {false, true}) {
+    test::DatasetBuilder builder;
+    if (has_messages) {
+      builder.topic("/points", scenegraph::ObjectType::PointCloud).at(1_s, test::CloudBuilder("map").xyz().build());
+    }
+    const auto dataset = builder.build();
+    InspectorWindow window(
+        [&](const auto&) -> std::expected<OpenedRecording, scenegraph::Status> {
+          return OpenedRecording{dataset, [](const auto& progress) { progress(1.0); }};
+        },
+        {.files = {"empty.mcap"}});
+    window.show();
+    ASSERT_TRUE(test::waitFor([&] { return window.isComplete(); }));
+    EXPECT_EQ(window.messageBar().text().contains(QStringLiteral("holds no messages")), !has_messages)
+        << window.messageBar().text().toStdString();
+  }
+}
+
 TEST_F(InspectorWindowTest, ClickingAFrameLooksAtIt) {
   open({.files = {"robot.mcap"}, .time = "+4"});
   Q_EMIT window_->frameTree().framePicked(QStringLiteral("base_link"));

@@ -255,9 +255,15 @@ TEST_F(SavedPictures, APictureOfTheViewHasItsLegendAndWhatIsMeasured) {
 
 TEST_F(SavedPictures, APictureOfTheWindowIsAllOfIt) {
   open();
+  addMenu();
+  settle();
+  window_->statusBar()->clearMessage();
+  const QRect bar = window_->statusBar()->geometry();
+  const QImage before = window_->grab().toImage().copy(bar);
   saver_.saveWindow(*window_, fileOf("window.png"));
   finish();
   const QImage image(fileOf("window.png"));
+  EXPECT_EQ(test::drawnPixels(image.copy(bar)), test::drawnPixels(before)) << "nothing is told there of the picture";
   EXPECT_EQ(image.size(), window_->size() * window_->devicePixelRatioF());
   EXPECT_GT(test::drawnPixels(image), 1000);
 }

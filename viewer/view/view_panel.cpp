@@ -190,6 +190,7 @@ void ViewPanel::addWantedLayers() {
   if (!choices_.only) {
     scene->addDefaultLayers();
   }
+  not_added_.clear();
   for (std::size_t i = 0; i < choices_.layers.size(); ++i) {
     const LayerChoice& choice = choices_.layers[i];
     if (is_choice_applied_[i]) {
@@ -197,6 +198,7 @@ void ViewPanel::addWantedLayers() {
     }
     const auto slot = scene->addLayer(choice.id);
     if (!slot) {
+      not_added_.push_back(slot.error().message);
       continue;  // the topic may come while the file loads
     }
     is_choice_applied_[i] = true;

@@ -70,7 +70,7 @@ class ViewPanel : public QWidget {
   [[nodiscard]] scenegraph::ViewLayout layout() const;
   /// Takes that over. What needs topics or frames that are not there (yet) waits for them, and is saved again.
   void restore(const scenegraph::ViewLayout& layout);
-  /// What of the restored layout was refused, or waits in vain so far, a line each.
+  /// What of the restored layout or of the choices was refused, or waits in vain so far, a line each.
   [[nodiscard]] std::vector<std::string> notRestored() const;
 
   [[nodiscard]] SceneWidget& view() noexcept { return *view_; }
@@ -120,6 +120,7 @@ class ViewPanel : public QWidget {
   FrameMemory* memory_ = nullptr;
   LayerChoices choices_;
   std::vector<bool> is_choice_applied_;
+  std::vector<std::string> not_added_;           // why choices are not
   scenegraph::ViewLayout restored_;              // the one that came last, as it came
   bool is_waiting_for_scene_ = false;            // all of restored_ does
   std::vector<scenegraph::LayerState> waiting_;  // of its layers

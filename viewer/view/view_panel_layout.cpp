@@ -137,6 +137,7 @@ void ViewPanel::takeApplied(scenegraph::AppliedLayers applied, scenegraph::Scene
 std::vector<std::string> ViewPanel::notRestored() const {
   std::vector<std::string> lines = refused_lines_;
   std::ranges::copy(absent_, std::back_inserter(lines));
+  std::ranges::copy(not_added_, std::back_inserter(lines));
   scenegraph::Scene* scene = view_->scene();
   if (scene == nullptr) {
     return lines;
@@ -147,8 +148,8 @@ std::vector<std::string> ViewPanel::notRestored() const {
       lines.push_back(std::string(what) + " '" + *frame + "' is not in '" + scene->dataset().name() + "'");
     }
   };
-  check(restored_.fixed_frame, "fixed frame");
-  check(restored_.viewpoint.display_frame, "display frame");
+  check(scene->isFixedFrameExplicit() ? std::optional(scene->fixedFrame()) : std::nullopt, "fixed frame");
+  check(view_->camera().displayFrame(), "display frame");
   for (const std::string& frame : scenegraph::framesOf(view_->picks().marks())) {
     if (view_->time() == scene->frames().time() && !scene->frames().fixedFromFrame(frame)) {
       lines.push_back("what is picked in frame '" + frame + "' has no place in '" + scene->fixedFrame() + "' now");

@@ -87,6 +87,7 @@ class InspectorWindow : public QMainWindow {
   void connectView(ViewPanel& panel);
   void connectFrames();
   void tellNotRestored();
+  [[nodiscard]] QStringList openingRemarks() const;
   void takeScreenshotWhenComplete();
   /// Ends the program with exit code 1: nobody is there to read a message bar.
   void failUnattended(const QString& message);

@@ -6,6 +6,8 @@
 #include <QStatusBar>
 #include <algorithm>
 
+#include "viewer/time/time_bar.h"
+#include "viewer/widget/scene_widget.h"
 #include "viewer/window/inspector_window.h"
 #include "viewer/window/message_bar.h"
 #include "viewer/window/window_place.h"
@@ -100,6 +102,36 @@ bool InspectorWindow::saveLayout(const std::filesystem::path& file) {
   return true;
 }
 
+/// Why there is nothing to see, or not at the time that was asked for.
+QStringList InspectorWindow::openingRemarks() const {
+  if (dataset_ == nullptr) {
+    return {};
+  }
+  const QString name = QString::fromStdString(dataset_->name());
+  const auto range = dataset_->timeRange();
+  if (!range) {
+    return {tr("%1 holds no messages").arg(name)};
+  }
+  QStringList lines;
+  const auto has_data = [](ViewPanel* panel) {
+    const scenegraph::Scene* const scene = panel->view().scene();
+    return scene != nullptr && std::ranges::any_of(scene->layers(), [](const auto& slot) {
+             return slot->type->consumes != scenegraph::ObjectType::None;
+           });
+  };
+  if (dataset_->transforms()->frameCount() == 0 && std::ranges::none_of(views(), has_data)) {
+    lines += tr("Nothing of %1 can be drawn: 'stillframe info' says why, topic by topic").arg(name);
+  }
+  const TimeRange times{range->first, range->second};
+  const auto asked =
+      options_.time && is_time_untouched_ ? parseTime(QString::fromStdString(*options_.time), times) : std::nullopt;
+  if (asked && (*asked < times.first || *asked > times.last)) {
+    lines += tr("Time %1 is outside the recording, which spans +0 to %2")
+                 .arg(QString::fromStdString(*options_.time), secondsText(times.last, times, 3));
+  }
+  return lines;
+}
+
 /// What the views' layouts name and the recording does not have; what several views miss is one line.
 void InspectorWindow::tellNotRestored() {
   struct Missing {
@@ -115,7 +147,7 @@ void InspectorWindow::tellNotRestored() {
       one.views += QString::number(i + 1);
     }
   }
-  QStringList lines;
+  QStringList lines = openingRemarks();
   for (const auto& [line, of] : missing) {
     const bool is_of_all = static_cast<std::size_t>(of.size()) == views().size();
     lines += is_of_all

@@ -95,8 +95,9 @@ void PictureSaver::cancel() {
 
 void PictureSaver::saveWindow(QWidget& window, const QString& file) {
   ++pending_;
-  Q_EMIT started(window.width(), window.height());
+  // Before anything is said of it: that would be in the picture.
   const QImage image = window.grab().toImage().convertToFormat(QImage::Format_RGB888);
+  Q_EMIT started(window.width(), window.height());
   scenegraph::BytePicture picture{.width = image.width(), .height = image.height(), .rgb = {}};
   for (int y = 0; y < image.height(); ++y) {
     picture.rgb.insert(picture.rgb.end(), image.constScanLine(y),

@@ -91,6 +91,56 @@ TEST_F(WidgetPickTest, ClicksWaitForShadersAndAreAnsweredInTheirOrder) {
   EXPECT_LT(glm::distance(selected()->picked.point_in_frame, glm::dvec3(-0.5, 0.0, 0.0)), 0.2) << "at once";
 }
 
+/// A click in a view whose shaders for picking are still to be made, one thing an event.
+class WaitingClickTest : public WidgetPickTest {
+ protected:
+  WaitingClickTest() {
+    widget_.scene()->findLayer("tf")->layer->setVisible(true);  // more things than one
+    widget_.requestTick();
+    settle();
+    waitFor([this] { return widget_.isUpToDate(); });
+    place_ = at(0.5, -0.25);
+    QTest::mouseClick(&widget_, Qt::LeftButton, {}, place_.toPoint());
+    EXPECT_TRUE(isWaiting());
+  }
+
+  bool isWaiting() { return !selected(); }
+  /// It is answered, and with what was there.
+  void expectThePointOfTheClick() {
+    ASSERT_TRUE(waitFor([this] { return !isWaiting(); }));
+    EXPECT_EQ(selected()->topic, "/points");
+    EXPECT_LT(glm::distance(selected()->picked.point_in_frame, glm::dvec3(0.5, -0.25, 0.0)), 0.2);
+  }
+
+  QPointF place_;
+};
+
+TEST_F(WaitingClickTest, IsAnsweredAtTheTimeOfTheClick) {
+  const auto frames = widget_.framesDrawn();
+  widget_.setTime(TimePoint{5_s});  // the cloud goes on by three metres
+  EXPECT_FALSE(widget_.applyTick()) << "put off";
+  expectThePointOfTheClick();
+  EXPECT_TRUE(waitFor([&] { return widget_.framesDrawn() > frames && widget_.isUpToDate(); })) << "and made up for";
+  EXPECT_GT(std::abs(place_.x() - at(0.5, -0.25).x()), 20.0);
+}
+
+TEST_F(WaitingClickTest, IsAnsweredFromTheCameraOfTheClick) {
+  const auto frames = widget_.framesDrawn();
+  QTest::keyClick(&widget_, Qt::Key_PageUp);
+  QTest::keyClick(&widget_, Qt::Key_X);
+  ASSERT_GT(std::abs(place_.x() - at(0.5, -0.25).x()), 20.0);
+  expectThePointOfTheClick();
+  EXPECT_TRUE(waitFor([&] { return widget_.framesDrawn() > frames && widget_.isUpToDate(); })) << "and made up for";
+}
+
+TEST_F(WaitingClickTest, HoldsNothingOnceItIsDropped) {
+  widget_.setTime(TimePoint{5_s});
+  EXPECT_FALSE(widget_.applyTick());
+  widget_.resize(300, 300);
+  EXPECT_TRUE(waitFor([this] { return widget_.isUpToDate() && std::abs(place_.x() - at(0.5, -0.25).x()) > 20.0; }));
+  EXPECT_TRUE(isWaiting()) << "it was of another picture";
+}
+
 TEST_F(WidgetPickTest, ADragPicksNothing) {
   QTest::mousePress(&widget_, Qt::LeftButton, {}, at(0, 0).toPoint());
   QTest::mouseMove(&widget_, at(0, 0).toPoint() + QPoint(30, 10));

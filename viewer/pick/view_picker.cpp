@@ -114,6 +114,12 @@ void ViewPicker::answer() {
     clicks_.pop_front();
     answerClick(click);
   }
+  view_.goOn();
+}
+
+void ViewPicker::dropClicks() {
+  clicks_.clear();
+  view_.goOn();
 }
 
 void ViewPicker::answerClick(const Click& click) {
@@ -155,7 +161,7 @@ void ViewPicker::leave() {
 void ViewPicker::clear() {
   label_->clearAll();
   picks_->clear();
-  clicks_.clear();
+  dropClicks();
   last_ms_ = 0.0;
 }
 

@@ -18,7 +18,8 @@ class ViewPicks;
 ///
 /// Frames are named at once. The thing under the cursor is looked for when the event loop comes to it, for the latest
 /// place alone; where that has taken long (software OpenGL, millions of voxels), when the cursor rests. Shaders for it
-/// are made an event each; clicks wait for them, and are answered one after the other. GUI thread.
+/// are made an event each; clicks wait for them, and are answered one after the other, in the picture that was clicked.
+/// GUI thread.
 class ViewPicker : public QObject {
   Q_OBJECT
 
@@ -27,6 +28,10 @@ class ViewPicker : public QObject {
 
   [[nodiscard]] ViewPicks& picks() noexcept { return *picks_; }
   [[nodiscard]] HoverLabel& label() noexcept { return *label_; }
+  /// Whether a click waits for its answer: the view stands still as long, so that what was clicked is what is picked.
+  [[nodiscard]] bool holdsView() const noexcept { return !clicks_.empty(); }
+  /// Clicks that wait get no answer: their places are of a picture that is gone.
+  void dropClicks();
   void press(QPointF position);
   void hover(QPointF position);
   /// Of the left button: a click where the mouse has not moved since press().

@@ -96,8 +96,8 @@ bool SceneWidget::applyTick() {
   if (scene_ == nullptr || !isVisible() || isLent()) {
     return false;  // showEvent() and takeBack() ask again
   }
-  if (steps_.at != FrameSteps::At::Rest) {
-    steps_.has_put_tick = true;  // endFrame() asks again
+  if (steps_.at != FrameSteps::At::Rest || picker_->holdsView()) {
+    steps_.has_put_tick = true;  // endFrame() and goOn() ask again
     return false;
   }
   bool is_changed = scene_->update(time_);
@@ -177,6 +177,7 @@ void SceneWidget::sayProgress(const QString& text) {
 
 void SceneWidget::releaseGl() {
   steps_ = {};
+  picker_->dropClicks();
   picture_.reset();
   draw_times_.reset();
   if (!is_context_usable_) {

@@ -63,8 +63,7 @@ class SceneWidget : public QOpenGLWidget {
   /// The same with a saved one. Until the camera is moved or endRestoring(), it counts in whatever fixed frame
   /// automatic choice comes to while data arrives, and neither is carried over nor framed anew. `is_touched`: as saved.
   void restoreViewpoint(const scenegraph::ViewpointState& state, bool is_touched);
-  /// All frames are known. Returns whether a viewpoint was being restored.
-  bool endRestoring();
+  bool endRestoring();  ///< all frames are known; returns whether a viewpoint was being restored
   /// Whether a gesture or setViewpoint() has moved the camera since home().
   [[nodiscard]] bool isCameraTouched() const noexcept { return is_camera_touched_; }
   /// Whether the camera has not yet been where it belongs: there is nothing to see so far.
@@ -83,6 +82,7 @@ class SceneWidget : public QOpenGLWidget {
   /// What clicks have picked and measured; what is picked is the selection.
   [[nodiscard]] ViewPicks& picks() noexcept;
   bool warmPick();  ///< ViewPipeline::warmPick(), where OpenGL is software
+  void goOn();      ///< with ticks and frames that clicks have held: none waits any more
   [[nodiscard]] const std::vector<scenegraph::SavedView>& savedViews() const noexcept { return saved_views_; }
   void setSavedViews(std::vector<scenegraph::SavedView> views);
   /// Saves what is shown; a view of that name is replaced, without a name it becomes "View 1", "View 2", ...

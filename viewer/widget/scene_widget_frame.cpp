@@ -158,6 +158,9 @@ FrameTurn::Step SceneWidget::stepFrame() {
     }
     return Over;
   }
+  if (steps_.at == At::Rest && picker_->holdsView()) {
+    return Over;  // goOn() asks again
+  }
   makeCurrent();
   if (steps_.at == At::Rest) {
     beginFrame();

@@ -20,6 +20,7 @@ constexpr double kWheelNotch = 120.0;  // eighths of a degree, as QWheelEvent co
 
 /// The framebuffer is new.
 void SceneWidget::startBlank() {
+  picker_->dropClicks();
   steps_.at = FrameSteps::At::Rest;
   steps_.is_blank = true;
   update();

@@ -1,6 +1,7 @@
 // What lies at a place of SceneWidget.
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "viewer/pick/view_picker.h"
 #include "viewer/widget/scene_widget.h"
@@ -33,6 +34,15 @@ bool SceneWidget::warmPick() {
   const bool was_cold = pipeline_->warmPick();
   doneCurrent();
   return was_cold;
+}
+
+void SceneWidget::goOn() {
+  if (std::exchange(steps_.has_put_tick, false)) {
+    requestTick();
+  }
+  if (steps_.is_wanted) {
+    askForFrame();
+  }
 }
 
 }  // namespace stillframe::viewer

@@ -10,6 +10,7 @@ namespace stillframe::scenegraph {
 namespace {
 
 const std::string kDisplayFrame = "display_frame";  // absent: the fixed frame
+constexpr int kWidestPanel = 65'535;                // pixels
 
 XmlElement textsElement(std::string name, const SettingTexts& texts) {
   XmlElement element{std::move(name)};
@@ -32,7 +33,8 @@ std::vector<std::string> keysOf(const SettingTexts& texts, const std::vector<std
 const std::vector<KnownElement>& knownInView() {
   static const std::vector<KnownElement> kKnown = {
       {kViewElement,
-       {"version", "dataset", "fixed_frame", "camera_touched", "smooth_moves", "layer_panel", "effect_panel", "legend"},
+       {"version", "dataset", "fixed_frame", "camera_touched", "smooth_moves", "layer_panel", "effect_panel",
+        "panel_width", "legend"},
        {"Camera", "Follow", "Effects", "SavedView", "Layer", "RemovedLayer", kPickedElement, kMeasurementElement}},
       {"Camera", keysOf(cameraTexts({}))},
       {"Follow", keysOf(followTexts({}), {kDisplayFrame})},
@@ -146,6 +148,9 @@ XmlElement toXml(const ViewLayout& layout) {
   view.set("smooth_moves", settingText(layout.has_smooth_moves));
   view.set("layer_panel", settingText(layout.shows_layers));
   view.set("effect_panel", settingText(layout.shows_effects));
+  if (layout.panel_width) {
+    view.set("panel_width", std::to_string(*layout.panel_width));
+  }
   view.set("legend", settingText(layout.shows_legend));
   addViewpoint(layout.viewpoint, view);
   view.children.push_back(textsElement("Effects", layout.effects));
@@ -186,6 +191,13 @@ std::expected<ViewLayout, Status> viewLayoutOf(const XmlElement& element) {
       return std::unexpected(value.error());
     }
     layout.*member = *value;
+  }
+  if (element.attribute("panel_width") != nullptr) {
+    const auto width = readInt(element, "panel_width", 0, 1, kWidestPanel);
+    if (!width) {
+      return std::unexpected(width.error());
+    }
+    layout.panel_width = *width;
   }
   auto viewpoint = viewpointOf(element);
   if (!viewpoint) {

@@ -29,6 +29,7 @@ struct ViewLayout {
   bool shows_legend = true;  ///< what colours of values mean, over the picture
   bool shows_layers = true;  ///< the panels beside the picture
   bool shows_effects = false;
+  std::optional<int> panel_width;  ///< theirs, in the window's pixels; absent: as wide as they begin
   /// What it was read from: what is unknown there is written again.
   XmlElement source = {};
 };

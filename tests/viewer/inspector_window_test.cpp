@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileInfo>
@@ -7,6 +8,7 @@
 #include <QStatusBar>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QToolButton>
 #include <QUrl>
 #include <cmath>
 
@@ -26,6 +28,25 @@ using test::waitFor;
 using tf::TimePoint;
 
 class InspectorWindowTest : public test::OpenWindowTest {};
+
+TEST_F(InspectorWindowTest, EveryPictureIsSeenInASmallWindow) {
+  open();
+  for (QDockWidget* const dock : window_->findChildren<QDockWidget*>()) {
+    dock->show();
+  }
+  window_->views()[0]->findChild<QToolButton*>(QStringLiteral("effects"))->click();
+  const QSize room(800, 500);
+  window_->resize(room);
+  settle();
+  EXPECT_EQ(window_->size(), room) << "with all panels";
+  window_->views()[0]->findChild<QToolButton*>(QStringLiteral("splitRight"))->click();
+  settle();
+  EXPECT_EQ(window_->size(), room);
+  for (ViewPanel* const panel : window_->views()) {
+    EXPECT_GE(panel->view().width(), 150);
+    EXPECT_GE(panel->view().height(), 90);
+  }
+}
 
 TEST_F(InspectorWindowTest, OpensARecordingWhereThereIsSomethingToSee) {
   open({.files = {"robot.mcap"}});

@@ -95,14 +95,14 @@ TEST_F(ViewSetTest, ButtonsSplitAViewBothWays) {
 }
 
 TEST_F(ViewSetTest, AViewAndItsCopyHavePicturesOfOneSize) {
-  window_->resize(1700, 640);  // room for both views' bars
+  window_->resize(1280, 640);
   settle();
   ASSERT_GT(views()[0]->panelsWidth(), 100);
   click(*views()[0], "splitRight");
   ASSERT_EQ(views()[1]->panelsWidth(), 0);
-  EXPECT_NEAR(views()[0]->view().width(), views()[1]->view().width(), 8) << "its layers take none of its half";
+  EXPECT_NEAR(views()[0]->view().width(), views()[1]->view().width(), 2) << "its layers take none of its half";
   click(*views()[1], "splitBelow");
-  EXPECT_NEAR(views()[1]->view().height(), views()[2]->view().height(), 8);
+  EXPECT_NEAR(views()[1]->view().height(), views()[2]->view().height(), 2);
 }
 
 TEST_F(ViewSetTest, ClosingLeavesNoEmptySplitter) {

@@ -12,6 +12,11 @@
 #include "viewer/frames/pose_text.h"
 
 namespace stillframe::viewer {
+namespace {
+
+constexpr int kLeastPickerWidth = 40;
+
+}  // namespace
 
 FramePose::FramePose(QWidget* parent) : QWidget(parent) {
   auto* layout = new QGridLayout(this);
@@ -30,13 +35,14 @@ FramePose::FramePose(QWidget* parent) : QWidget(parent) {
   layout->addWidget(new QLabel(tr("Pose of"), this), 0, 0);
   layout->addWidget(source_, 0, 1);
   layout->addWidget(new QLabel(tr("in"), this), 0, 2);
-  layout->addWidget(target_, 0, 3);
-  layout->addWidget(copy_, 0, 4);
-  layout->addWidget(label_, 1, 0, 1, 5);
+  layout->addWidget(target_, 0, 3, 1, 2);
+  layout->addWidget(label_, 1, 0, 1, 4);
+  layout->addWidget(copy_, 1, 4, Qt::AlignTop);
   layout->setColumnStretch(1, 1);
   layout->setColumnStretch(3, 1);
   for (FramePicker* picker : {source_, target_}) {
     picker->setMinimumContentsLength(6);
+    picker->setMinimumWidth(kLeastPickerWidth);
   }
   connect(source_, &FramePicker::picked, this, [this](const std::optional<std::string>& frame) {
     source_name_ = frame;

@@ -2,6 +2,8 @@
 
 #include <QHBoxLayout>
 #include <QShortcut>
+#include <QStyleOptionToolButton>
+#include <QStylePainter>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -9,6 +11,28 @@
 #include "viewer/layers/layer_tree.h"
 
 namespace stillframe::viewer {
+namespace {
+
+constexpr int kLeastButtonWidth = 24;
+
+/// A button whose text ends in dots where there is no room for it.
+class ElidedButton : public QToolButton {
+ public:
+  using QToolButton::QToolButton;
+
+ protected:
+  void paintEvent(QPaintEvent* /*event*/) override {
+    QStylePainter painter(this);
+    QStyleOptionToolButton option;
+    initStyleOption(&option);
+    if (width() < sizeHint().width()) {
+      option.text = fontMetrics().elidedText(text(), Qt::ElideRight, width() - kLeastButtonWidth / 2);
+    }
+    painter.drawComplexControl(QStyle::CC_ToolButton, option);
+  }
+};
+
+}  // namespace
 
 LayerPanel::LayerPanel(QWidget* parent)
     : QWidget(parent), bar_(new QWidget(this)), tree_(new LayerTree(this)), add_menu_(new AddLayerMenu(this)) {
@@ -24,6 +48,7 @@ LayerPanel::LayerPanel(QWidget* parent)
   QToolButton* const add = addButton("addLayer", tr("Add"), tr("Add a layer, or a second one of a topic"));
   add->setPopupMode(QToolButton::InstantPopup);
   add->setMenu(add_menu_);
+  add->setMinimumWidth(add->sizeHint().width());
   duplicate_ = addButton("duplicateLayer", tr("Duplicate"), tr("A second layer like the selected one (Ctrl+D)"));
   remove_ = addButton("removeLayer", tr("Remove"), tr("Remove the selected layer (Delete)"));
   QToolButton* const times = addButton("drawTimes", tr("Draw times"),
@@ -63,8 +88,9 @@ LayerPanel::LayerPanel(QWidget* parent)
 }
 
 QToolButton* LayerPanel::addButton(const char* name, const QString& text, const QString& tip) {
-  auto* button = new QToolButton(bar_);
+  auto* button = new ElidedButton(bar_);
   button->setObjectName(QLatin1String(name));
+  button->setMinimumWidth(kLeastButtonWidth);
   button->setText(text);
   button->setToolTip(tip);
   button->setAutoRaise(true);

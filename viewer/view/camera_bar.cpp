@@ -15,6 +15,8 @@
 namespace stillframe::viewer {
 namespace {
 
+constexpr int kLeastWidth = 24;  // of the button for what does not fit
+
 QComboBox* makeCombo(QToolBar& bar, const QString& name, const QString& tip, const QStringList& items) {
   auto* combo = new QComboBox(&bar);
   combo->setObjectName(name);
@@ -44,6 +46,7 @@ QString nameOf(const scenegraph::SavedView& view) { return QString::fromStdStrin
 CameraBar::CameraBar(SceneWidget& view, QWidget* parent) : QToolBar(parent), view_(view) {
   setObjectName(QStringLiteral("cameraBar"));
   setIconSize({16, 16});
+  setMinimumWidth(kLeastWidth);
   kinds_ = makeCombo(*this, QStringLiteral("cameraKind"), tr("Camera (keys 1 to 4 in the view)"),
                      {tr("Orbit"), tr("XY orbit"), tr("Top down"), tr("Fly")});
   follows_ = makeCombo(*this, QStringLiteral("follow"),

@@ -5,6 +5,7 @@
 #include <QSplitter>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "nodes/tf_axes/frame_list.h"
 #include "viewer/frames/frame_memory.h"
@@ -22,9 +23,10 @@
 namespace stillframe::viewer {
 namespace {
 
-constexpr int kLayerPanelWidth = 270;
-constexpr int kLeastPickerWidth = 60;
+constexpr int kLayerPanelWidth = 322;
+constexpr int kLeastFramePickerWidth = 36;
 constexpr int kMarkHeight = 2;
+constexpr QSize kLeastPicture(150, 90);
 
 /// A label that is shown whole, or not at all where there is no room.
 class WholeLabel : public QLabel {
@@ -73,7 +75,7 @@ ViewPanel::ViewPanel(QWidget* parent)
   label->setMinimumWidth(1);  // where views stand side by side, they shrink before the window has to grow
   picker_ = new FramePicker(tr("Fixed frame"), tr("the frame that stands still"), bar);
   picker_->setObjectName(QStringLiteral("fixedFrame"));
-  picker_->setMinimumWidth(kLeastPickerWidth);
+  picker_->setMinimumWidth(kLeastFramePickerWidth);
   bar_layout->addWidget(picker_);
   auto* place_of_camera_bar = new QHBoxLayout;
   bar_layout->addLayout(place_of_camera_bar, 1);
@@ -101,6 +103,8 @@ ViewPanel::ViewPanel(QWidget* parent)
   legend_ = new LegendOverlay(*view_);
   camera_bar_ = new CameraBar(*view_, bar);
   place_of_camera_bar->addWidget(camera_bar_);
+  view_->setMinimumSize(kLeastPicture);
+  splitter_->setCollapsible(1, false);
   splitter_->setStretchFactor(0, 0);
   splitter_->setStretchFactor(1, 1);
   splitter_->setSizes({kLayerPanelWidth, 3 * kLayerPanelWidth});
@@ -150,7 +154,24 @@ QToolButton* ViewPanel::addButton(QWidget& bar, const QString& name, const QIcon
   return button;
 }
 
-int ViewPanel::panelsWidth() const { return splitter_->widget(0)->isVisible() ? splitter_->sizes().constFirst() : 0; }
+int ViewPanel::panelsWidth() const {
+  return splitter_->widget(0)->isVisible() ? splitter_->sizes().constFirst() + splitter_->handleWidth() : 0;
+}
+
+void ViewPanel::narrowPanels(int picture_width) {
+  const int lacking = picture_width - view_->width();
+  QList<int> sizes = splitter_->sizes();
+  if (panelsWidth() > 0 && lacking > 0) {
+    sizes[0] = std::max(sizes[0] - lacking, 1);
+    sizes[1] = picture_width;
+    splitter_->setSizes(sizes);
+  }
+}
+
+void ViewPanel::hidePanels() {
+  layers_button_->setChecked(false);
+  effects_button_->setChecked(false);
+}
 
 void ViewPanel::setMarked(bool marked) { mark_->setBackgroundRole(marked ? QPalette::Highlight : QPalette::Window); }
 

@@ -65,6 +65,9 @@ class ViewPanel : public QWidget {
 
   /// Of the layers and effects beside the picture, where they are shown.
   [[nodiscard]] int panelsWidth() const;
+  void hidePanels();
+  /// As far as they can be, so that the picture is as wide as that.
+  void narrowPanels(int picture_width);
 
   /// All that makes the view what it is: what a copy of it takes over, and what is saved.
   [[nodiscard]] scenegraph::ViewLayout layout() const;

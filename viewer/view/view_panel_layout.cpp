@@ -1,4 +1,5 @@
 // What a ViewPanel is, as a ViewLayout: taken, restored, and kept until data comes.
+#include <QSplitter>
 #include <QToolButton>
 #include <algorithm>
 #include <iterator>
@@ -26,6 +27,9 @@ ViewLayout ViewPanel::layout() const {
   layout.source = restored_.source;
   layout.shows_layers = layers_button_->isChecked();
   layout.shows_effects = effects_button_->isChecked();
+  if (panelsWidth() > 0) {
+    layout.panel_width = splitter_->sizes().constFirst();
+  }
   layout.shows_legend = legend_button_->isChecked();
   layout.effects = view_->effects().toTexts();
   layout.has_smooth_moves = view_->hasSmoothMoves();
@@ -55,6 +59,9 @@ void ViewPanel::restore(const ViewLayout& layout) {
   restored_ = layout;
   layers_button_->setChecked(layout.shows_layers);
   effects_button_->setChecked(layout.shows_effects);
+  if (layout.panel_width) {
+    splitter_->setSizes({*layout.panel_width, std::max(1, splitter_->width() - *layout.panel_width)});
+  }
   setLegendShown(layout.shows_legend);
   refused_lines_.clear();
   scenegraph::ViewEffects effects;

@@ -74,7 +74,7 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   frame_tree_ = new FrameTree(dock);
   dock->setWidget(frame_tree_);
   addDockWidget(Qt::RightDockWidgetArea, dock);
-  resizeDocks({dock}, {kFrameTreeWidth}, Qt::Horizontal);
+  resizeDocks({dock}, {std::min(kFrameTreeWidth, width() / 3)}, Qt::Horizontal);
 
   // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): after what it stands on
   inspect_ = new InspectDock(*this);
@@ -182,6 +182,7 @@ ViewPanel& InspectorWindow::addView(ViewPanel* like, Qt::Orientation orientation
     layout.effects = options_.effects.toTexts();
   }
   layout.shows_layers = views().size() == 1 && options_.views <= 1;  // side by side, the picture needs the room
+  layout.shows_effects = layout.shows_effects && layout.shows_layers;
   panel.restore(layout);
   return panel;
 }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "viewer/view/view_panel.h"
+#include "viewer/widget/scene_widget.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -105,8 +106,10 @@ void ViewArea::insert(ViewPanel& panel, ViewPanel* beside, Side side) {
     const bool is_across = orientation == Qt::Horizontal;
     const int place = splitter->indexOf(beside);
     const int room = sizes.size() > 1 ? sizes[place] : is_across ? beside->width() : beside->height();
-    const int picture = std::max(room - (is_across ? beside->panelsWidth() : 0), 2) / 2;  // as large for each
-    sizes[place] = std::max(room - picture, 1);
+    const int for_pictures = room - splitter->handleWidth() - (is_across ? beside->panelsWidth() : 0);
+    const QSize least = panel.minimumSizeHint();
+    const int picture = std::max(for_pictures / 2, is_across ? least.width() : least.height());  // as large for each
+    sizes[place] = std::max(room - splitter->handleWidth() - picture, 1);
     sizes.insert(is_before ? place : place + 1, picture);
   }
   splitter->insertWidget(index, &panel);
@@ -114,6 +117,9 @@ void ViewArea::insert(ViewPanel& panel, ViewPanel* beside, Side side) {
   panel.show();
   if (beside != nullptr) {
     beside->show();
+    if (orientation == Qt::Horizontal) {
+      beside->narrowPanels(panel.view().width());
+    }
   }
 }
 

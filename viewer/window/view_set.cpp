@@ -73,6 +73,9 @@ ViewPanel& ViewSet::make() {
 
 ViewPanel& ViewSet::add(ViewPanel* beside, Side side) {
   ViewPanel& panel = make();
+  if (beside != nullptr) {
+    panel.hidePanels();  // side by side, the picture needs the room
+  }
   (beside == nullptr ? main_ : areaOf(*beside)).insert(panel, beside, side);
   finishArranging();
   return panel;

@@ -41,6 +41,7 @@ ViewLayout makeViewLayout() {
       {"/lidar/points#2", "", true, {}}};
   layout.shows_layers = false;
   layout.shows_effects = true;
+  layout.panel_width = 217;
   layout.shows_legend = false;
   layout.picks.selected = makePick("lidar", {1.0 / 3.0, -0.1, 1e-9});
   layout.picks.measured = {{makePick("lidar", {1, 2, 3}), makePick("map", {0, 0, 0})},

@@ -32,6 +32,7 @@ TEST(ViewLayout, ComesBackExactly) {
   EXPECT_EQ(back.layers, layout.layers);
   EXPECT_EQ(back.shows_layers, layout.shows_layers);
   EXPECT_EQ(back.shows_effects, layout.shows_effects);
+  EXPECT_EQ(back.panel_width, layout.panel_width);
   EXPECT_EQ(back.shows_legend, layout.shows_legend);
   EXPECT_EQ(back.picks, layout.picks);
 }

@@ -8,6 +8,7 @@
 #include "viewer/pick/view_picker.h"
 #include "viewer/widget/gl_format.h"
 #include "viewer/widget/scene_widget.h"
+#include "viewer/widget/size_px.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -17,11 +18,6 @@ using At = FrameSteps::At;
 // For the points of a frame, so that the camera follows the hand with any cloud.
 constexpr double kSoftwareBudgetMs = 33.0;
 constexpr double kHardwareBudgetMs = 12.0;
-
-QSize sizePxOf(const QWidget& widget) {
-  const QSizeF size_px = QSizeF(widget.size()) * widget.devicePixelRatioF();
-  return {qRound(size_px.width()), qRound(size_px.height())};
-}
 
 QString problemText(const scenegraph::Status& status) {
   return SceneWidget::tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(status.message));

@@ -10,6 +10,7 @@
 #include "viewer/pick/view_picks.h"
 #include "viewer/widget/help_overlay.h"
 #include "viewer/widget/scene_widget.h"
+#include "viewer/widget/size_px.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -28,8 +29,8 @@ void SceneWidget::startBlank() {
 
 /// On a screen with other pixels QOpenGLWidget makes a new framebuffer, without a resize.
 bool SceneWidget::event(QEvent* event) {
-  const bool is_sharper = event->type() == QEvent::ScreenChangeInternal && !steps_.shown_px.isEmpty() &&
-                          steps_.shown_px != (QSizeF(size()) * devicePixelRatioF()).toSize();
+  const bool is_sharper =
+      event->type() == QEvent::ScreenChangeInternal && !steps_.shown_px.isEmpty() && steps_.shown_px != sizePxOf(*this);
   if (is_sharper) {
     keepPicture();
   }

@@ -11,6 +11,7 @@
 #include "viewer/pick/view_picks.h"
 #include "viewer/widget/picture_job.h"
 #include "viewer/widget/scene_widget.h"
+#include "viewer/widget/size_px.h"
 
 namespace stillframe::viewer {
 namespace {
@@ -147,8 +148,8 @@ void SceneWidget::stepDrawTimes() {
     return;
   }
   makeCurrent();
-  const QSizeF size_px = QSizeF(size()) * devicePixelRatioF();
-  draw_times_->step([&] { (void)pipeline_->renderLinear(qRound(size_px.width()), qRound(size_px.height())); });
+  const QSize size_px = sizePxOf(*this);
+  draw_times_->step([&] { (void)pipeline_->renderLinear(size_px.width(), size_px.height()); });
   doneCurrent();
   if (draw_times_->isValid() && !draw_times_->isDone()) {
     sayProgress(tr("Taking draw times, %1 %").arg(qRound(100.0 * draw_times_->share())));

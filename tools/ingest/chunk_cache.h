@@ -24,8 +24,8 @@ class ChunkCache {
   using Chunk = std::expected<Buffer, std::string>;
 
   explicit ChunkCache(std::size_t max_bytes) : max_bytes_(max_bytes) {}
-  /// The chunk of that key; `unpack` makes it when it is not there. Blocks while another thread makes it, which does not
-  /// stand back any longer then.
+  /// The chunk of that key; `unpack` makes it when it is not there. Blocks while another thread makes it, which does
+  /// not stand back any longer then.
   [[nodiscard]] std::shared_ptr<const Chunk> get(std::uint64_t key, const std::function<Chunk()>& unpack);
   /// The chunk is not wanted again soon.
   void drop(std::uint64_t key);

@@ -99,8 +99,9 @@ TEST_F(RenderSequence, MistakesAreNamedBeforeAnythingIsWritten) {
 }
 
 TEST_F(RenderSequence, AnInterruptFinishesThePictureAndSaysHowManyThereAre) {
-  const std::string command = "cd '" + folder_.path().string() + "' && timeout --preserve-status -s INT 1.5 '" +
-                              STILLFRAME_PROGRAM + "' render '" + sample_ +
+  const std::string command = "cd '" + folder_.path().string() +
+                              "' && timeout --foreground --preserve-status -s INT 1.5 '" + STILLFRAME_PROGRAM +
+                              "' render '" + sample_ +
                               "' --size 16x16 --turntable 90000 --out c%d.png >/dev/null 2>stderr.txt";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1);

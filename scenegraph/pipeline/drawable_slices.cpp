@@ -92,7 +92,18 @@ class SomeInstances : public osg::Drawable::DrawCallback {
   int count_;
 };
 
+class NoDrawing : public osg::Drawable::DrawCallback {
+ public:
+  void drawImplementation(osg::RenderInfo& /*render_info*/, const osg::Drawable* /*drawable*/) const override {}
+};
+
 }  // namespace
+
+DrawsNothing::DrawsNothing(osg::Drawable& drawable) : drawable_(&drawable), before_(drawable.getDrawCallback()) {
+  drawable.setDrawCallback(new NoDrawing);
+}
+
+DrawsNothing::~DrawsNothing() { drawable_->setDrawCallback(before_); }
 
 std::size_t sliceCount(const osg::Drawable& drawable) {
   const osg::Geometry* const geometry = drawable.asGeometry();

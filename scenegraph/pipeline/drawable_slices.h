@@ -31,4 +31,18 @@ class DrawableSlice {
   osg::Geometry::PrimitiveSetList whole_;
 };
 
+/// As long as it lives a drawable draws nothing: its state is applied, and its program linked. Thread of the context
+/// only.
+class DrawsNothing {
+ public:
+  explicit DrawsNothing(osg::Drawable& drawable);
+  ~DrawsNothing();
+  DrawsNothing(const DrawsNothing&) = delete;
+  DrawsNothing& operator=(const DrawsNothing&) = delete;
+
+ private:
+  osg::ref_ptr<osg::Drawable> drawable_;
+  osg::ref_ptr<osg::Drawable::DrawCallback> before_;
+};
+
 }  // namespace stillframe::scenegraph

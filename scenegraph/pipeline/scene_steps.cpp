@@ -10,11 +10,24 @@
 
 namespace stillframe::scenegraph {
 
+namespace {
+
+void linkOnly(osgUtil::RenderLeaf& leaf, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous) {
+  const DrawsNothing nothing(*leaf._drawable);
+  leaf.render(render_info, previous);
+  previous = &leaf;
+}
+
+}  // namespace
+
 void SceneSteps::setBudget(double budget_ms, bool waits) {
   start_ = std::chrono::steady_clock::now();
   budget_ms_ = budget_ms;
   waits_ = waits;
   is_used_up_ = false;
+  is_first_use_ = false;
+  met_new_program_ = false;
+  has_uploaded_ = false;
   seen_ = 0;
   begun_ = drawn_;
   drawn_ms_ = 0.0;
@@ -23,6 +36,7 @@ void SceneSteps::setBudget(double budget_ms, bool waits) {
 void SceneSteps::adopt(osgUtil::CullVisitor& cull) {
   others_.clear();
   if (!std::isfinite(budget_ms_)) {
+    buffers_.drop();
     return;
   }
   // What is in no bin is drawn by the stage itself, which has no callback for it: it goes into the first one.
@@ -52,12 +66,38 @@ bool SceneSteps::isNext() {
 }
 
 /// False when the go ends before all are there: the next goes on with them.
-bool SceneSteps::hasTextures(const osgUtil::RenderLeaf& leaf, osg::RenderInfo& render_info) {
+bool SceneSteps::hasData(const osgUtil::RenderLeaf& leaf, bool has_indices, osg::RenderInfo& render_info) {
   if (std::isfinite(budget_ms_)) {
-    is_used_up_ = !uploads_.bring(*leaf._parent, *render_info.getState(),
-                                  [this] { return millisecondsSince(start_) > budget_ms_; });
+    const auto is_time_up = [this] {
+      has_uploaded_ = true;
+      return millisecondsSince(start_) > budget_ms_;
+    };
+    osg::State& state = *render_info.getState();
+    is_used_up_ = !uploads_.bring(*leaf._parent, state, is_time_up) ||
+                  (waits_ && !buffers_.bring(leaf, has_indices, state, is_time_up));
   }
   return !is_used_up_;
+}
+
+/// False when the go ends: before `program` is linked, unless that is the first thing of it, and then after it.
+template <typename Link>
+bool SceneSteps::isLinked(FirstUses::Is& program, const Link& link) {
+  using enum FirstUses::Is;
+  if (!std::isfinite(budget_ms_) || !waits_ || program == Used) {
+    return true;
+  }
+  met_new_program_ = true;
+  if (program == Linked) {
+    program = Used;
+    is_first_use_ = true;
+    return true;
+  }
+  is_used_up_ = true;
+  if (drawn_ == begun_ && !has_uploaded_) {
+    link();
+    program = Linked;
+  }
+  return false;
 }
 
 void SceneSteps::countDrawn() {
@@ -66,7 +106,7 @@ void SceneSteps::countDrawn() {
   }
   const double now_ms = millisecondsSince(start_);
   costOf(drawn_++) = now_ms - std::exchange(drawn_ms_, now_ms);
-  is_used_up_ = now_ms > budget_ms_;
+  is_used_up_ = now_ms > budget_ms_ || std::exchange(is_first_use_, false);
 }
 
 /// How many there are turns out with the last one.
@@ -76,7 +116,15 @@ void SceneSteps::drawPieces(Transparency& blended, osgUtil::RenderBin& bin, osg:
   const auto pieces = Transparency::piecesOf(bin, waits_);
   while (!blended.isDone() && isNext()) {
     const osgUtil::RenderLeaf* const leaf = blended.nextLeaf(pieces);
-    if (leaf != nullptr && !hasTextures(*leaf, render_info)) {
+    const bool lays_over = leaf == nullptr && !pieces.empty() && pieces.front().leaf != nullptr;
+    if (leaf != nullptr && !hasData(*leaf, sliceCount(*leaf->_drawable) == 1, render_info)) {
+      return;
+    }
+    if (leaf != nullptr &&
+        !isLinked(first_uses_->of(*leaf, true), [&] { blended.linkPiece(pieces, render_info, previous); })) {
+      return;
+    }
+    if (lays_over && !isLinked(first_uses_->ofLayingOver(), [] {})) {
       return;
     }
     blended.drawPiece(bin, pieces, render_info, previous);
@@ -107,7 +155,8 @@ void SceneSteps::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& re
   const auto draw = [&](osgUtil::RenderLeaf* leaf) {
     const std::size_t slices = waits_ ? sliceCount(*leaf->_drawable) : 1;
     for (std::size_t slice = 0; slice < slices; ++slice) {
-      if (!isNext() || !hasTextures(*leaf, render_info)) {
+      if (!isNext() || !hasData(*leaf, slices == 1, render_info) ||
+          !isLinked(first_uses_->of(*leaf, false), [&] { linkOnly(*leaf, render_info, previous); })) {
         continue;
       }
       const DrawableSlice alone(*leaf->_drawable, slices == 1 ? std::nullopt : std::optional(slice));

@@ -213,7 +213,7 @@ void Stages::addScene(osg::Group& root, const PostChain& chain) {
   state.addUniform(new osg::Uniform{"u_viewport_height_px", static_cast<float>(height)});
   scene_camera_->addChild(&root);
   transparency_ = new Transparency{width, height, samples_, target(depthTarget()), options_.blend};
-  steps_ = new SceneSteps;
+  steps_ = new SceneSteps(options_.first_uses);
   scene_camera_->setCullCallback(new AdoptCulled{transparency_, steps_});
   group_->addChild(scene_camera_);
   if (samples_ > 1) {

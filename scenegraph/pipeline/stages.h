@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <expected>
 #include <map>
+#include <memory>
 #include <optional>
 #include <osg/Camera>
 #include <osg/Group>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "scenegraph/camera/camera.h"
+#include "scenegraph/pipeline/first_uses.h"
 #include "scenegraph/pipeline/point_picture.h"
 #include "scenegraph/pipeline/post_chain.h"
 #include "scenegraph/pipeline/scene_steps.h"
@@ -35,7 +37,8 @@ class Stages {
     int max_samples = 1;  ///< of the driver; more are not asked for
     unsigned context_id = 0;
     BlendLimits blend = {};
-    bool presents = false;  ///< ends with the sRGB picture in the viewer's framebuffer
+    std::shared_ptr<FirstUses> first_uses = {};  ///< in this context, with as many samples
+    bool presents = false;                       ///< ends with the sRGB picture in the viewer's framebuffer
   };
   /// Error "UnknownInput": a pass reads what no earlier one wrote. The context must be current.
   [[nodiscard]] static std::expected<Stages, Status> make(osg::Group& root, const PostChain& chain,

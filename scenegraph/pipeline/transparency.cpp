@@ -134,6 +134,18 @@ void Transparency::drawPiece(osgUtil::RenderBin& bin, std::span<const Piece> pie
   collect(*alone, render_info, previous);
 }
 
+void Transparency::linkPiece(std::span<const Piece> pieces, osg::RenderInfo& render_info,
+                             osgUtil::RenderLeaf*& previous) {
+  if (!is_begun_) {
+    start();
+  }
+  osgUtil::RenderLeaf* const leaf = nextLeaf(pieces);
+  const osg::ref_ptr<osgUtil::RenderBin> alone = new osgUtil::RenderBin;
+  alone->getRenderLeafList().push_back(leaf);
+  const DrawsNothing nothing(*leaf->_drawable);
+  collect(*alone, render_info, previous);
+}
+
 void Transparency::start() {
   makeLists();
   bands_ = 0;

@@ -49,6 +49,8 @@ class Transparency : public osgUtil::RenderBin::DrawCallback {
   void begin() noexcept { collected_ = pieces_ = 0, is_begun_ = false; }
   void drawPiece(osgUtil::RenderBin& bin, std::span<const Piece> pieces, osg::RenderInfo& render_info,
                  osgUtil::RenderLeaf*& previous);
+  /// Links the program of the next of them, which has a leaf.
+  void linkPiece(std::span<const Piece> pieces, osg::RenderInfo& render_info, osgUtil::RenderLeaf*& previous);
   /// What the next of them draws; nullptr for none or many.
   [[nodiscard]] osgUtil::RenderLeaf* nextLeaf(std::span<const Piece> pieces) const {
     return collected_ < pieces.size() ? pieces[collected_].leaf : nullptr;

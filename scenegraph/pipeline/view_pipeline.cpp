@@ -60,12 +60,17 @@ void ViewPipeline::Impl::setSceneData(osg::Node* scene) {
 
 std::expected<void, Status> ViewPipeline::Impl::makeStages() {
   const int max_samples = chain.msaa_samples > 1 ? gl::maxSamples() : 1;
+  if (std::exchange(used_samples, chain.msaa_samples) != chain.msaa_samples) {
+    first_uses->clear();
+  }
+  drawn_stages = 0;
   auto made = Stages::make(*content, chain,
                            {.width_px = width_px,
                             .height_px = height_px,
                             .max_samples = max_samples,
                             .context_id = contextId(),
                             .blend = blend,
+                            .first_uses = first_uses,
                             .presents = presents});
   if (!made) {
     return std::unexpected(made.error());
@@ -348,6 +353,7 @@ void ViewPipeline::releaseGl() {
     impl_->id_pass.reset();
   }
   impl_->dropPoints();
+  impl_->first_uses->clear();
   impl_->content->releaseGLObjects(impl_->window->getState());
   impl_->dropStages();
   osg::deleteAllGLObjects(impl_->contextId());

@@ -3,9 +3,11 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <osgViewer/GraphicsWindow>
 #include <osgViewer/Viewer>
 
+#include "scenegraph/pipeline/first_uses.h"
 #include "scenegraph/pipeline/gl_target.h"
 #include "scenegraph/pipeline/id_pass.h"
 #include "scenegraph/pipeline/point_collection.h"
@@ -59,6 +61,9 @@ struct ViewPipeline::Impl {
   std::unique_ptr<IdPass> id_pass;  // none before something is picked
   bool is_chain_new = false;        // setPostChain() needs no context, the next draw() has one
   std::optional<SteppedPicture> stepped;
+  std::shared_ptr<FirstUses> first_uses = std::make_shared<FirstUses>();
+  int used_samples = 1;          // that they were made for
+  std::size_t drawn_stages = 0;  // of these stages, at least once
 
   [[nodiscard]] unsigned contextId() const { return window->getState()->getContextID(); }
   void makeViewer();

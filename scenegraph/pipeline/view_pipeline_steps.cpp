@@ -42,7 +42,8 @@ std::expected<PictureStep, Status> ViewPipeline::step(std::uint32_t output_fbo, 
   SteppedPicture& at = *impl.stepped;
   for (bool is_first = true; at.stage + 1 < stages.count(); is_first = false) {
     const double left_ms = budget_ms - millisecondsSince(start);
-    if (!is_first && left_ms <= 0.0) {
+    const bool is_new_pass = impl.is_software && at.stage > 0 && at.stage >= impl.drawn_stages;  // its shaders are made
+    if (!is_first && (left_ms <= 0.0 || is_new_pass)) {
       return PictureStep::More;
     }
     if (!at.has_points) {
@@ -71,7 +72,10 @@ std::expected<PictureStep, Status> ViewPipeline::step(std::uint32_t output_fbo, 
       }
     }
     if (at.stage > 0 || stages.steps().isDone()) {
-      ++at.stage;
+      impl.drawn_stages = std::max(impl.drawn_stages, ++at.stage);
+    }
+    if (at.stage == 0 && stages.steps().metNewProgram()) {
+      return PictureStep::More;
     }
     if (at.sub_frame + 1 < stages.subFrames() && at.stage > stages.lastOfSubFrame()) {
       at = {.sub_frame = at.sub_frame + 1};

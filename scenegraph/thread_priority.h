@@ -21,6 +21,7 @@ struct Precedences {
   std::mutex mutex;
   std::condition_variable over;
   std::atomic<int> count = 0;
+  std::atomic<int> of_window = 0;  // among them
 };
 [[nodiscard]] inline Precedences& precedences() noexcept {
   static Precedences all;
@@ -42,8 +43,11 @@ inline thread_local bool stands_back = false;
 // Times as long as it worked that a thread waits: with more, what is read ahead is not there when it is wanted.
 inline constexpr int kLoading = 2;
 inline constexpr int kSpare = 1;
+inline constexpr std::chrono::steady_clock::duration kLongestPause = std::chrono::milliseconds(30);
 inline thread_local int patience = 0;
 inline thread_local std::chrono::steady_clock::time_point resumed;
+inline thread_local std::chrono::steady_clock::duration
+    saved{};  // worked, and not yet paused for by the window's steps
 
 }  // namespace detail
 
@@ -67,11 +71,26 @@ inline void standBack(StandBack how) noexcept {
 /// not take it slows by the memory that it moves. One of a thread that stands back counts for nothing. Any thread.
 class Precedence {
  public:
-  Precedence() noexcept : counts_(!standsBack()) { detail::precedences().count += counts_ ? 1 : 0; }
+  enum class Of {
+    Work,    ///< shares the cores with those that stand back
+    Window,  ///< a step that keeps the window's thread: they pause for all of it, where they do not starve by that
+  };
+
+  explicit Precedence(Of what = Of::Work) noexcept : counts_(!standsBack()), of_window_(what == Of::Window) {
+    if (counts_) {
+      ++detail::precedences().count;
+      detail::precedences().of_window += of_window_ ? 1 : 0;
+    }
+  }
   ~Precedence() {
-    if (counts_ && --detail::precedences().count == 0) {
-      const std::scoped_lock lock(detail::precedences().mutex);
-      detail::precedences().over.notify_all();
+    if (!counts_) {
+      return;
+    }
+    auto& all = detail::precedences();
+    const bool is_last_of_window = of_window_ && --all.of_window == 0;
+    if (--all.count == 0 || is_last_of_window) {
+      const std::scoped_lock lock(all.mutex);
+      all.over.notify_all();
     }
   }
   Precedence(const Precedence&) = delete;
@@ -79,6 +98,7 @@ class Precedence {
 
  private:
   bool counts_;
+  bool of_window_;
 };
 
 /// What the calling thread does from here to the end of this, which others may come to wait for: once `is_awaited`, it
@@ -108,19 +128,30 @@ inline void await(std::atomic<bool>& is_awaited) {
 }
 
 /// Pauses a thread that stands back while somebody has precedence: as long as it worked since it last paused, twice as
-/// long where it loads, so that both go on; 30 ms at most, and never in an errand that is awaited. Nothing for other
-/// threads. For work that takes long, every fraction of a millisecond; not with a lock held that others want.
+/// long where it loads, so that both go on; for a step of the window's thread once more what it worked since the last
+/// of these. 30 ms at most, and never in an errand that is awaited. Nothing for other threads. For work that takes
+/// long, every fraction of a millisecond; not with a lock held that others want.
 inline void giveWay() {
+  using std::chrono::steady_clock;
   auto& all = detail::precedences();
   if (!standsBack() || all.count == 0 || detail::isAwaited()) {
     return;
   }
-  constexpr std::chrono::steady_clock::duration kLongest = std::chrono::milliseconds(30);
-  const auto worked = std::min(std::chrono::steady_clock::now() - detail::resumed, kLongest);
-  std::unique_lock lock(all.mutex);
-  all.over.wait_for(lock, std::min(worked * detail::patience, kLongest),
-                    [&] { return all.count == 0 || detail::isAwaited(); });
-  detail::resumed = std::chrono::steady_clock::now();
+  const steady_clock::time_point begun = steady_clock::now();
+  const steady_clock::duration worked = std::min(begun - detail::resumed, detail::kLongestPause);
+  detail::saved = std::min(detail::saved + worked, detail::kLongestPause);
+  const bool is_of_window = all.of_window > 0;
+  const steady_clock::duration share = worked * detail::patience;
+  const steady_clock::duration pause = is_of_window ? std::max(share, detail::saved) : share;
+  {
+    std::unique_lock lock(all.mutex);
+    all.over.wait_for(lock, std::min(pause, detail::kLongestPause),
+                      [&] { return all.count == 0 || (is_of_window && all.of_window == 0) || detail::isAwaited(); });
+  }
+  detail::resumed = steady_clock::now();
+  if (is_of_window) {
+    detail::saved -= std::min(detail::resumed - begun, detail::saved);
+  }
 }
 
 }  // namespace stillframe::scenegraph

@@ -270,7 +270,7 @@ std::expected<void, Status> ViewPipeline::Impl::draw(std::uint32_t output_fbo, i
   if (!remade) {
     return std::unexpected(remade.error());
   }
-  const Precedence frame;
+  const Precedence frame(Precedence::Of::Window);
   projection_matrix = projection(view, static_cast<double>(width) / height);
   stages->setView(toOsg(view.eye_from_fixed), projection_matrix, background);
   stages->showAll();

@@ -24,7 +24,7 @@ std::expected<PictureStep, Status> ViewPipeline::step(std::uint32_t output_fbo, 
     impl.passes.clear();
     return PictureStep::Whole;
   }
-  const Precedence frame;
+  const Precedence frame(Precedence::Of::Window);
   const auto start = std::chrono::steady_clock::now();
   const auto remade = impl.makeReady(width_px, height_px, true);
   if (!remade) {
@@ -114,7 +114,7 @@ void ViewPipeline::present(std::uint32_t output_fbo) {
   if (!impl.stages || !impl.stepped || impl.stepped->stage + 1 < impl.stages->count()) {
     return;
   }
-  const Precedence frame;
+  const Precedence frame(Precedence::Of::Window);
   const auto start = std::chrono::steady_clock::now();
   const double rest_ms = impl.stepped->rest_ms;
   impl.stepped.reset();

@@ -61,6 +61,50 @@ TEST(Precedence, PausesThreadsThatStandBackByWhatTheyWorked) {
   EXPECT_LT(pauseMs(StandBack::Loading, std::chrono::milliseconds(0)), loading_ms) << "who has not worked goes on";
 }
 
+TEST(Precedence, OfTheWindowPausesThemForAllOfIt) {
+  std::binary_semaphore has_worked{0};
+  std::binary_semaphore is_drawing{0};
+  std::atomic<int> pieces = 0;
+  std::atomic<bool> is_over = false;
+  double second_ms = 0.0;
+  std::thread worker([&] {
+    standBack(StandBack::Spare);
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    has_worked.release();
+    is_drawing.acquire();
+    while (!is_over) {
+      ++pieces;
+      giveWay();
+    }
+    const auto start = std::chrono::steady_clock::now();
+    giveWay();
+    second_ms = millisecondsSince(start);
+  });
+  has_worked.acquire();
+  {
+    const Precedence drawing(Precedence::Of::Window);
+    is_drawing.release();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_EQ(pieces, 1) << "though each takes nothing";
+    is_over = true;
+  }
+  worker.join();
+  EXPECT_LT(second_ms, 5.0) << "nobody has precedence";
+}
+
+TEST(Precedence, OfTheWindowStarvesNobody) {
+  const Precedence drawing(Precedence::Of::Window);
+  int pieces = 0;
+  std::thread([&] {
+    standBack(StandBack::Spare);
+    for (const auto start = std::chrono::steady_clock::now(); millisecondsSince(start) < 200.0; ++pieces) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      giveWay();
+    }
+  }).join();
+  EXPECT_GE(pieces, 20) << "of 1 ms, with as long a pause after each, once what was saved is used up";
+}
+
 TEST(Precedence, OfAThreadThatStandsBackCountsForNothing) {
   std::binary_semaphore is_held{0};
   std::binary_semaphore is_over{0};

@@ -40,6 +40,7 @@ class SampleLayer : public TopicLayer {
     std::function<void(const Product&, const Settings&)> prepare = nullptr;
     /// Last of all: lets go of what can be read again; may be empty.
     std::function<void(Product&, const scenegraph::MessageOrigin&)> settle = nullptr;
+    bool takes_early = false;  ///< `convert` waits for its payload (Payload::arrival)
   };
 
   /// `table` outlives the layer.
@@ -73,7 +74,7 @@ class SampleLayer : public TopicLayer {
           }
           return product;
         },
-        source_.is_reference);
+        source_.is_reference, source_.takes_early);
   }
   void close() override {
     loader_.reset();

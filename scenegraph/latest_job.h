@@ -102,8 +102,7 @@ class LatestJob {
     bool is_running = false;
   };
 
-  // By value: what the work holds is let go of here, outside the lock.
-  static Result runOne(Work work) {  // NOLINT(performance-unnecessary-value-param)
+  static Result runOne(const Work& work) {
     try {
       return work.run();
     } catch (const std::exception& error) {
@@ -114,11 +113,10 @@ class LatestJob {
   static void run(State& state, std::thread::id requester) {
     std::unique_lock lock(state.mutex);
     while (state.queued) {
-      Work work = std::move(*state.queued);
-      state.queued.reset();
-      const CacheKey key = work.key;
+      std::optional<Work> work = std::exchange(state.queued, std::nullopt);
+      const CacheKey key = work->key;
       lock.unlock();
-      Result result = runOne(std::move(work));
+      Result result = runOne(*work);
       lock.lock();
       if (!result) {
         state.failed.insert_or_assign(key, result.error());
@@ -129,6 +127,9 @@ class LatestJob {
           state.wake();  // under the lock: the destructor waits for it, so that it never reaches a view that is gone
         }
       }
+      lock.unlock();
+      work.reset();  // outside of the lock, and once its result is there: it may hold much memory
+      lock.lock();
     }
     state.is_running = false;
   }

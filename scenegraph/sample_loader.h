@@ -41,13 +41,13 @@ class SampleLoader {
   using IsReference = std::function<bool(const Product&)>;
 
   /// `tag` names the product in the cache, with every setting that changes its bytes ("points"). `is_reference`: which
-  /// samples reference() accepts, for instance those that are not empty.
+  /// samples reference() accepts. `takes_early`: as SampleWork has it.
   SampleLoader(
       const LayerContext& context, ObjectType type, std::string topic, std::string tag, Convert convert,
-      IsReference is_reference = [](const Product&) { return true; })
+      IsReference is_reference = [](const Product&) { return true; }, bool takes_early = false)
       : topic_name_(std::move(topic)),
-        shared_(std::make_shared<const Shared>(
-            Shared{context.dataset.shared_from_this(), type, topic_name_, std::move(tag), std::move(convert)})),
+        shared_(std::make_shared<const Shared>(Shared{context.dataset.shared_from_this(), type, topic_name_,
+                                                      std::move(tag), std::move(convert), takes_early})),
         is_reference_(std::move(is_reference)),
         ahead_(context.executor),
         sample_job_(context.executor, context.request_update),
@@ -68,8 +68,7 @@ class SampleLoader {
     }
     auto product = shared_->dataset->cache().template get<Product>(key);
     if (product == nullptr) {
-      sample_job_.request(key,
-                          [shared = shared_, topic = *topic_, entry = *entry] { return shared->load(topic, entry); });
+      sample_job_.request(key, jobOf<Product>(shared_, *topic_, *entry));
       auto outcome = sample_job_.take();
       if (!outcome) {
         return show(entry_, product_, decoding(*entry));

@@ -34,27 +34,34 @@ struct SampleWork {
   std::string topic_name;
   std::string tag;
   std::function<std::expected<Product, Status>(const AnyObject&, const Entry&)> convert;
+  bool takes_early = false;  ///< `convert` waits for what it needs of the payload, and for its good end
 
-  /// The product of one entry, put into the cache; made once, however many ask at a time.
-  [[nodiscard]] Loaded load(TopicId topic, const Entry& entry) const {
-    const auto fail = [&](StatusLevel level, const std::string& code, const std::string& message) {
+  /// The product of one entry, put into the cache; made once, however many ask at a time. `message` keeps what it was
+  /// made of: giving back large memory takes long, so whoever waits for the product is told before.
+  [[nodiscard]] Loaded load(TopicId topic, const Entry& entry, EarlyObject& message) const {
+    const auto fail = [&](StatusLevel level, const std::string& code, const std::string& reason) {
       return std::unexpected(
-          Status{level, code, "'" + topic_name + "' at " + timeText(entry.log_time) + ": " + message});
+          Status{level, code, "'" + topic_name + "' at " + timeText(entry.log_time) + ": " + reason});
     };
     const CacheKey key = cacheKey(topic, entry, tag);
     const ObjectCache::Claim claim(dataset->cache(), key);
     if (auto made = dataset->cache().template peek<Product>(key)) {
       return made;  // by another layer's worker, meanwhile
     }
-    const auto object = dataset->store().decode(topic, entry);
-    if (!object) {
-      return fail(StatusLevel::Error, object.error().code, object.error().message);
+    if (auto early = makeEarly(topic, entry, message)) {
+      dataset->cache().put(key, early, early->byteSize());
+      return early;
     }
-    if (object->type() != type) {
+    auto decoded = dataset->store().decode(topic, entry);
+    if (!decoded) {
+      return fail(StatusLevel::Error, decoded.error().code, decoded.error().message);
+    }
+    message = {*std::move(decoded), nullptr};
+    if (message.object.type() != type) {
       return fail(StatusLevel::Error, "WrongObject", "the decoder made another object than the topic announces");
     }
     const Precedence wanted;  // not while it is decoded: that may wait for a chunk that another thread unpacks
-    auto converted = convert(*object, entry);
+    auto converted = convert(message.object, entry);
     if (!converted) {
       return fail(converted.error().level, converted.error().code, converted.error().message);
     }
@@ -62,11 +69,24 @@ struct SampleWork {
     dataset->cache().put(key, product, product->byteSize());
     return product;
   }
+  /// While its payload is still being unpacked; nullptr where that cannot be, or fails: then load() says why.
+  [[nodiscard]] std::shared_ptr<const Product> makeEarly(TopicId topic, const Entry& entry,
+                                                         EarlyObject& message) const {
+    auto early = takes_early ? dataset->store().decodeEarly(topic, entry) : std::nullopt;
+    if (!early || early->object.type() != type) {
+      return nullptr;
+    }
+    message = *std::move(early);
+    const Precedence wanted;
+    auto converted = convert(message.object, entry);
+    return converted ? std::make_shared<const Product>(std::move(*converted)) : nullptr;
+  }
   /// load() for who may want it later: what fails, fails again when it is wanted, and says so then.
   void tryLoad(TopicId topic, const Entry& entry) const noexcept {
     try {
       if (dataset->cache().template peek<Product>(cacheKey(topic, entry, tag)) == nullptr) {
-        (void)load(topic, entry);
+        EarlyObject message;
+        (void)load(topic, entry, message);
       }
       // NOLINTNEXTLINE(bugprone-empty-catch): who asks for it in earnest is told
     } catch (const std::exception&) {
@@ -86,12 +106,21 @@ struct SampleWork {
       scan->last_sequence = entry->sequence;
       auto product = dataset->cache().template get<Product>(cacheKey(topic, *entry, tag));
       if (product == nullptr) {
-        product = load(topic, *entry).value_or(nullptr);
+        EarlyObject message;
+        product = load(topic, *entry, message).value_or(nullptr);
       }
       scan->product = product != nullptr && accept(*product) ? std::move(product) : nullptr;
     }
     return scan;
   }
 };
+
+/// load() for LatestJob, which lets go of the message when the product was told.
+template <typename Product>
+[[nodiscard]] auto jobOf(std::shared_ptr<const SampleWork<Product>> work, TopicId topic, const Entry& entry) {
+  return [work = std::move(work), topic, entry, message = std::make_shared<EarlyObject>()] {
+    return work->load(topic, entry, *message);
+  };
+}
 
 }  // namespace stillframe::scenegraph

@@ -50,7 +50,8 @@ PointCloudLayer::PointCloudLayer(std::string_view topic, CloudFeed feed)
                    .convert = std::move(feed.convert),
                    .is_reference = [](const CloudPoints& points) { return points.converted().points > 0; },
                    .prepare = &prepare,
-                   .settle = std::move(feed.settle)},
+                   .settle = std::move(feed.settle),
+                   .takes_early = feed.type == scenegraph::ObjectType::PointCloud},
                   pointCloudSettingsTable(), std::move(feed.defaults)) {}
 
 void PointCloudLayer::open(const scenegraph::LayerContext& context) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <glm/common.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -167,18 +168,20 @@ struct PartResult {
   glm::dvec3 high{-kInfinity};
 };
 
-/// The results behind each other, as if one thread had gone through all. Run by run it is nearly nothing; positions
-/// move where points were dropped before them.
-PartResult join(const std::vector<Part>& parts, std::span<const PartResult> results, const CloudLayout& layout,
-                float* out) {
-  PartResult joined;
-  ConvertedCloud& all = joined.cloud;
-  bool are_boxes_whole = layout.rows == 1;  // each part's begin where a group does
-  all.point_step = layout.point_step;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const ConvertedCloud& cloud = results[i].cloud;
-    const float* const from = out + 3 * parts[i].place(layout);
-    if (float* const to = out + 3 * all.points; to != from && cloud.points > 0) {
+/// Puts the results of parts behind each other, as if one thread had gone through all. Run by run it is nearly nothing;
+/// positions move where points were dropped before them, and their groups are others then.
+class Joiner {
+ public:
+  Joiner(const CloudLayout& layout, float* out) : layout_(layout), out_(out) {
+    joined_.cloud.point_step = layout.point_step;
+  }
+
+  /// The parts in their order.
+  void add(const Part& part, const PartResult& result) {
+    ConvertedCloud& all = joined_.cloud;
+    const ConvertedCloud& cloud = result.cloud;
+    const float* const from = out_ + 3 * part.place(layout_);
+    if (float* const to = out_ + 3 * all.points; to != from && cloud.points > 0) {
       std::memmove(to, from, 3 * cloud.points * sizeof(float));
     }
     for (const PointRun& run : cloud.runs) {
@@ -188,24 +191,65 @@ PartResult join(const std::vector<Part>& parts, std::span<const PartResult> resu
         all.runs.push_back(run);
       }
     }
+    const std::size_t groups_before = all.points / kPassesOfSample;
+    const bool begins_group = all.points % kPassesOfSample == 0;
     all.points += cloud.points;
     all.not_finite += cloud.not_finite;
     all.out_of_reach += cloud.out_of_reach;
-    joined.low = glm::min(joined.low, results[i].low);
-    joined.high = glm::max(joined.high, results[i].high);
-    are_boxes_whole = are_boxes_whole && all.boxes.size() * kPassesOfSample == all.points - cloud.points;
-    all.boxes.insert(all.boxes.end(), cloud.boxes.begin(), cloud.boxes.end());
+    joined_.low = glm::min(joined_.low, result.low);
+    joined_.high = glm::max(joined_.high, result.high);
+    if (begins_group && !cloud.boxes.empty()) {
+      all.boxes.insert(all.boxes.end(), cloud.boxes.begin(), cloud.boxes.end());
+    } else if (cloud.points > 0) {
+      const std::size_t first = groups_before * kPassesOfSample;
+      const auto boxes = scenegraph::boxesOf({out_ + 3 * first, 3 * (all.points - first)});
+      all.boxes.resize(groups_before);  // without one of a part of a group
+      all.boxes.insert(all.boxes.end(), boxes.begin(), boxes.end());
+    }
   }
-  if (!are_boxes_whole) {  // where points were dropped, the groups of what comes after are others
-    all.boxes = scenegraph::boxesOf({out, 3 * all.points});
+  [[nodiscard]] PartResult take() { return std::move(joined_); }
+
+ private:
+  const CloudLayout& layout_;
+  float* out_;
+  PartResult joined_;
+};
+
+/// `work(first, end)` of all parts: of those whose data is there, and then of the next. False when it comes to no good
+/// end.
+template <typename Work>
+bool asTheyCome(const std::vector<Part>& parts, const CloudLayout& layout, const scenegraph::Payload& data,
+                const Work& work) {
+  if (data.arrival == nullptr) {
+    work(0, parts.size());
+    return true;
   }
-  return joined;
+  constexpr std::size_t kReadPast = 4 * sizeof(float);  // a block's last point
+  const auto endOf = [&](const Part& part) {
+    const std::size_t end =
+        (part.first_row + part.rows - 1) * layout.row_step + (part.first + part.count) * layout.point_step + kReadPast;
+    return data.place + std::min(end, data.bytes.size());
+  };
+  for (std::size_t done = 0; done < parts.size();) {
+    const auto there = data.arrival->wait(endOf(parts[done]));
+    if (!there) {
+      return false;
+    }
+    std::size_t next = done + 1;
+    while (next < parts.size() && endOf(parts[next]) <= *there) {
+      ++next;
+    }
+    work(done, next);
+    done = next;
+  }
+  return data.arrival->waitForAll();
 }
 
-/// `convert(row, count, progress)` of all parts, in parallel where there are several.
+/// `convert(row, count, progress)` of all parts; nullopt when their data does not come.
 template <typename Convert>
-PartResult convertParts(const CloudLayout& layout, std::span<const std::byte> data, float* out,
-                        const Convert& convert) {
+std::optional<PartResult> convertParts(const CloudLayout& layout, const scenegraph::Payload& payload, float* out,
+                                       const Convert& convert) {
+  const std::span<const std::byte> data = payload.bytes;
   const std::vector<Part> parts = partsOf(layout);
   std::vector<PartResult> results(parts.size());
   const auto convertPart = [&](std::size_t number) {
@@ -225,8 +269,14 @@ PartResult convertParts(const CloudLayout& layout, std::span<const std::byte> da
       result.cloud.boxes = scenegraph::boxesOf({place, 3 * result.cloud.points});  // while they are in the cache
     }
   };
-  scenegraph::runInBackground(parts.size(), convertPart);
-  return join(parts, results, layout, out);
+  Joiner joiner(layout, out);
+  const bool is_whole = asTheyCome(parts, layout, payload, [&](std::size_t first, std::size_t end) {
+    scenegraph::runInBackground(end - first, [&](std::size_t number) { convertPart(first + number); });
+    for (; first < end; ++first) {
+      joiner.add(parts[first], results[first]);
+    }
+  });
+  return is_whole ? std::optional(joiner.take()) : std::nullopt;
 }
 
 /// Second pass: the kept points again, in double, relative to the origin.
@@ -252,14 +302,17 @@ std::expected<ConvertedCloud, CloudError> convertCloud(const PointCloud& cloud, 
     return std::unexpected(checked.error());
   }
   const CloudLayout& layout = *checked;
+  const CloudError no_end{CloudErrorCode::MalformedCloud, "its data does not come to a good end"};
   if (layout.points() == 0) {
+    if (cloud.data.arrival != nullptr && !cloud.data.arrival->waitForAll()) {
+      return std::unexpected(no_end);
+    }
     ConvertedCloud nothing;
     nothing.point_step = layout.point_step;
     return nothing;
   }
   const auto& [x, y, z] = layout.xyz;
   const std::array<std::size_t, 3> offsets{x->offset, y->offset, z->offset};
-  const std::span<const std::byte> data = cloud.data.bytes;
   float* const out = positions(3 * layout.points());
   const MixedReader mixed{{valueReader(x->type, cloud.is_bigendian), valueReader(y->type, cloud.is_bigendian),
                            valueReader(z->type, cloud.is_bigendian)},
@@ -267,39 +320,42 @@ std::expected<ConvertedCloud, CloudError> convertCloud(const PointCloud& cloud, 
   const std::size_t step = layout.point_step;
   const bool is_uniform = x->type == y->type && y->type == z->type;
   const bool is_native = cloud.is_bigendian == (std::endian::native == std::endian::big);
-  PartResult joined;
+  std::optional<PartResult> joined;
   if (is_uniform && x->type == FieldType::Float32 && is_native && offsets[1] == offsets[0] + 4 &&
       offsets[2] == offsets[0] + 8) {
-    joined = convertParts(layout, data, out, [&](const std::byte* row, std::size_t count, Progress& progress) {
+    joined = convertParts(layout, cloud.data, out, [&](const std::byte* row, std::size_t count, Progress& progress) {
       convertRowFloat3(row, count, step, offsets[0], progress);
     });
   } else if (is_uniform) {
     withFieldType(x->type, cloud.is_bigendian, [&]<typename T, bool kSwapped>() {
       const UniformReader<T, kSwapped> read{offsets};
-      joined = convertParts(layout, data, out, [&](const std::byte* row, std::size_t count, Progress& progress) {
+      joined = convertParts(layout, cloud.data, out, [&](const std::byte* row, std::size_t count, Progress& progress) {
         convertRow(row, count, step, read, progress);
       });
     });
   } else {
-    joined = convertParts(layout, data, out, [&](const std::byte* row, std::size_t count, Progress& progress) {
+    joined = convertParts(layout, cloud.data, out, [&](const std::byte* row, std::size_t count, Progress& progress) {
       convertRow(row, count, step, mixed, progress);
     });
   }
-  ConvertedCloud converted = std::move(joined.cloud);
+  if (!joined) {
+    return std::unexpected(no_end);
+  }
+  ConvertedCloud converted = std::move(joined->cloud);
   if (converted.points == 0) {
     return converted;
   }
-  converted.box_min = joined.low;
-  converted.box_max = joined.high;
+  converted.box_min = joined->low;
+  converted.box_max = joined->high;
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = joined.low[axis];
-    const double high = joined.high[axis];
+    const double low = joined->low[axis];
+    const double high = joined->high[axis];
     if (std::max(std::abs(low), std::abs(high)) > ConvertedCloud::kNearby) {
       converted.origin[axis] = std::rint(low / 2 + high / 2);
     }
   }
   if (converted.origin != glm::dvec3(0.0)) {
-    writeRelative(mixed, converted, data.data(), out);
+    writeRelative(mixed, converted, cloud.data.bytes.data(), out);
     converted.boxes = scenegraph::boxesOf({out, 3 * converted.points});
   }
   return converted;

@@ -48,6 +48,8 @@ using FloatSink = std::function<float*(std::size_t floats)>;
 ///
 /// Every data type (mixed ones too), any stride, both byte orders, row padding, fields in any order or overlapping; of
 /// a coordinate with count > 1 the first value. Contiguous little-endian FLOAT32 x, y, z take a vectorised path.
+/// Data that is still arriving is converted as it comes, and all of it waited for ("MalformedCloud" when it comes to no
+/// good end): at the same time as another thread unpacks it, that costs next to nothing.
 /// Coordinates beyond kNearby cost a second pass: they are written relative to the box centre in double, so that UTM
 /// coordinates in FLOAT64 keep their millimetres.
 [[nodiscard]] std::expected<ConvertedCloud, CloudError> convertCloud(const scenegraph::PointCloud& cloud,

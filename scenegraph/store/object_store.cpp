@@ -172,16 +172,29 @@ std::optional<std::pair<tf::TimePoint, tf::TimePoint>> ObjectStore::span(TopicId
   return std::pair(topics_[topic].entries.front().log_time, topics_[topic].entries.back().log_time);
 }
 
-std::expected<AnyObject, DecodeError> ObjectStore::decode(TopicId topic, const Entry& entry) const {
-  std::shared_ptr<const TopicInfo> info;
-  std::shared_ptr<const EntrySource> source;
-  {
-    const std::shared_lock lock(mutex_);
-    if (topic < topics_.size()) {
-      info = topics_[topic].info;
-      source = topics_[topic].source;
+std::pair<std::shared_ptr<const TopicInfo>, std::shared_ptr<const EntrySource>> ObjectStore::decoderOf(
+    TopicId topic) const {
+  const std::shared_lock lock(mutex_);
+  return topic < topics_.size() ? std::pair(topics_[topic].info, topics_[topic].source)
+                                : std::pair<std::shared_ptr<const TopicInfo>, std::shared_ptr<const EntrySource>>{};
+}
+
+std::optional<EarlyObject> ObjectStore::decodeEarly(TopicId topic, const Entry& entry) const {
+  const auto [info, source] = decoderOf(topic);
+  try {
+    auto early = source == nullptr ? std::nullopt : source->decodeEarly(*info, entry);
+    if (early && early->writer != nullptr) {
+      using Writer = std::pair<std::shared_ptr<const EntrySource>, std::shared_ptr<void>>;  // the latter goes first
+      early->writer = std::make_shared<Writer>(source, std::move(early->writer));
     }
+    return early;
+  } catch (const std::exception&) {
+    return std::nullopt;  // decode() says why
   }
+}
+
+std::expected<AnyObject, DecodeError> ObjectStore::decode(TopicId topic, const Entry& entry) const {
+  const auto [info, source] = decoderOf(topic);
   if (source == nullptr) {
     return std::unexpected(DecodeError{"NoDecoder", "the topic has no decoder"});
   }

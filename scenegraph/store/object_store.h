@@ -37,12 +37,25 @@ struct Entry {
 
 struct TopicInfo;
 
+/// An object whose payload is still being written.
+struct EarlyObject {
+  AnyObject object;
+  std::shared_ptr<void> writer;  ///< waits for it, where that is a thread of its own, when let go of
+};
+
 /// Turns entries into objects. Called from any thread, several at a time.
 class EntrySource {
  public:
   virtual ~EntrySource() = default;
   [[nodiscard]] virtual std::expected<AnyObject, DecodeError> decode(const TopicInfo& topic,
                                                                      const Entry& entry) const = 0;
+  /// What decode() will make, before all of its payload is there: for whoever goes through that from its beginning,
+  /// and waits for it by Payload::arrival. nullopt where decode() is as well, or there is anything to be said.
+  /// It must outlive the writer.
+  [[nodiscard]] virtual std::optional<EarlyObject> decodeEarly(const TopicInfo& /*topic*/,
+                                                               const Entry& /*entry*/) const {
+    return std::nullopt;
+  }
 };
 
 /// What a store knows of a topic. Topics of an unknown schema are listed too, with type None and a reason.
@@ -87,6 +100,8 @@ class ObjectStore {
 
   /// Decodes without a cache; ObjectCache is the way for layers. May block on the disk.
   [[nodiscard]] std::expected<AnyObject, DecodeError> decode(TopicId topic, const Entry& entry) const;
+  /// As EntrySource has it; what it gives keeps the source.
+  [[nodiscard]] std::optional<EarlyObject> decodeEarly(TopicId topic, const Entry& entry) const;
 
   /// Counts appends and new topics: equal revisions mean equal content.
   [[nodiscard]] std::uint64_t revision() const noexcept;
@@ -102,6 +117,8 @@ class ObjectStore {
     bool is_in_arrival_order;    // then sorted by sequence as well
   };
   void notify(TopicId topic);
+  [[nodiscard]] std::pair<std::shared_ptr<const TopicInfo>, std::shared_ptr<const EntrySource>> decoderOf(
+      TopicId topic) const;
 
   mutable std::shared_mutex mutex_;  // guards topics_, listeners_, next_sequence_
   std::vector<TopicData> topics_;

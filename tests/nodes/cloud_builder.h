@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -39,6 +40,16 @@ PointCloud makeCloud(std::vector<PackedField> fields, std::span<const Point> poi
   setData(cloud, std::move(bytes));
   return cloud;
 }
+
+inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+struct Xyz {
+  float x, y, z;
+};
+inline const std::vector<PackedField> kXyzFields = {
+    {"x", 0, FieldType::Float32}, {"y", 4, FieldType::Float32}, {"z", 8, FieldType::Float32}};
+
+[[nodiscard]] inline PointCloud xyzCloud(const std::vector<Xyz>& points) { return makeCloud<Xyz>(kXyzFields, points); }
 
 /// The cloud and its positions in one.
 struct Converted {

@@ -19,16 +19,7 @@ using nodes::CloudErrorCode;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
-
-struct Xyz {
-  float x, y, z;
-};
-const std::vector<PackedField> kXyzFields = {
-    {"x", 0, FieldType::Float32}, {"y", 4, FieldType::Float32}, {"z", 8, FieldType::Float32}};
-
-PointCloud xyzCloud(const std::vector<Xyz>& points) { return makeCloud<Xyz>(kXyzFields, points); }
 
 TEST(ConvertCloud, KeepsFinitePointsInOrderAndCountsTheOthers) {
   const auto converted = convert(xyzCloud(

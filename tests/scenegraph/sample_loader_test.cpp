@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <semaphore>
 
 #include "tests/support/builders.h"
 
@@ -234,6 +235,72 @@ TEST_F(SampleLoaderTest, ReferenceComesInTheBackground) {
   later.drain();
   EXPECT_EQ(points.reference()->width, 5U);
   EXPECT_FALSE(points.isPending());
+}
+
+/// Clouds whose width is there before all of them is; whole ones are one wider.
+class EarlySource : public EntrySource {
+ public:
+  [[nodiscard]] std::expected<AnyObject, DecodeError> decode(const TopicInfo&, const Entry& entry) const override {
+    ++decoded;
+    return entry.payload_bytes == 0
+               ? std::expected<AnyObject, DecodeError>(std::unexpected(DecodeError{"BadChunk", "its CRC is wrong"}))
+               : AnyObject::make(cloudOf(static_cast<std::uint32_t>(entry.payload_bytes) + 1));
+  }
+  [[nodiscard]] std::optional<EarlyObject> decodeEarly(const TopicInfo&, const Entry& entry) const override {
+    PointCloud cloud = cloudOf(static_cast<std::uint32_t>(entry.payload_bytes));
+    const auto arrival = std::make_shared<Arrival>();
+    arrival->finish(entry.payload_bytes != 0);
+    cloud.data.arrival = arrival;
+    return EarlyObject{AnyObject::make(cloud), nullptr};
+  }
+  mutable int decoded = 0;
+};
+
+TEST_F(SampleLoaderTest, ConvertsWhatIsNotAllThereOnlyWhereThatIsKnownToWait) {
+  const auto source = std::make_shared<EarlySource>();
+  TopicInfo info;
+  info.name = "/early";
+  info.type = ObjectType::PointCloud;
+  const TopicId topic = builder.raw()->store().addTopic(info, source);
+  builder.raw()->store().append(
+      topic, std::vector<Entry>{{.log_time = {10_s}, .payload_bytes = 0}, {.log_time = {20_s}, .payload_bytes = 7}});
+  const auto waits = [](const AnyObject& object, const Entry& entry) -> std::expected<Width, Status> {
+    const auto cloud = object.get<PointCloud>();
+    if (cloud->data.arrival != nullptr && !cloud->data.arrival->waitForAll()) {
+      return std::unexpected(Status{StatusLevel::Error, "MalformedCloud", "it does not come"});
+    }
+    return widthOf(object, entry);
+  };
+  SampleLoader<Width> early(context(*at_once), ObjectType::PointCloud, "/early", "early", waits, {}, true);
+  early.update({20_s});
+  ASSERT_NE(early.product(), nullptr);
+  EXPECT_EQ(early.product()->width, 7U);
+  EXPECT_EQ(source->decoded, 0);
+  early.update({10_s});
+  EXPECT_EQ(early.product(), nullptr);
+  EXPECT_EQ(early.status().code, "BadChunk") << "the reason is that of decode()";
+  SampleLoader<Width> whole(context(*at_once), ObjectType::PointCloud, "/early", "whole", widthOf);
+  whole.update({20_s});
+  ASSERT_NE(whole.product(), nullptr);
+  EXPECT_EQ(whole.product()->width, 8U);
+}
+
+TEST(LatestJob, TellsItsResultBeforeWhatTheWorkHeldIsGivenBack) {
+  const auto pool = makeThreadPoolExecutor(1);
+  std::binary_semaphore is_told{0};
+  std::binary_semaphore is_taken{0};
+  std::atomic<bool> was_taken_first = false;
+  LatestJob<Width> job(*pool, [&] { is_told.release(); });
+  std::shared_ptr<void> memory(nullptr,
+                               [&](void*) { was_taken_first = is_taken.try_acquire_for(std::chrono::seconds(5)); });
+  job.request({1, 2, 3, 4, "a"}, [memory = std::move(memory)] {
+    return LatestJob<Width>::Result(std::make_shared<const Width>(Width{1}));
+  });
+  is_told.acquire();
+  EXPECT_TRUE(job.take());
+  is_taken.release();
+  pool->drain();
+  EXPECT_TRUE(was_taken_first);
 }
 
 TEST(LatestJob, TurnsAnExceptionIntoAStatusAndRemembersIt) {

@@ -1,6 +1,10 @@
 #include "tools/ingest/chunk_cache.h"
 
+#include <exception>
 #include <iterator>
+#include <system_error>
+#include <thread>
+#include <utility>
 
 #include "scenegraph/thread_priority.h"
 
@@ -31,16 +35,57 @@ void ChunkCache::letGo(std::list<Item>& items, std::list<Item>::iterator item) {
   items.splice(items.begin(), items_, item);
 }
 
-std::shared_ptr<const ChunkCache::Chunk> ChunkCache::get(std::uint64_t key, const std::function<Chunk()>& unpack) {
+std::shared_ptr<const ChunkCache::Chunk> ChunkCache::get(std::uint64_t key,
+                                                         const std::function<Chunk(scenegraph::Arrival&)>& unpack) {
   std::shared_ptr<Slot> slot;
   {
     const std::lock_guard lock(mutex_);
     slot = slotOf(key);
   }
+  return fill(slot, key, unpack);
+}
+
+std::optional<ChunkCache::Early> ChunkCache::getEarly(std::uint64_t key,
+                                                      std::function<Chunk(scenegraph::Arrival&)> unpack) {
+  std::shared_ptr<Slot> slot;
+  {
+    const std::lock_guard lock(mutex_);
+    slot = slotOf(key);
+  }
+  Early early{{slot, &slot->arrival}, nullptr};
+  if (!slot->is_begun.exchange(true)) {
+    try {
+      early.writer = std::make_shared<std::jthread>([this, slot, key, unpack = std::move(unpack)] {
+        try {
+          (void)fill(slot, key, unpack);
+          // NOLINTNEXTLINE(bugprone-empty-catch): who asks for the whole chunk tries again, and is told
+        } catch (const std::exception&) {
+        }
+      });
+    } catch (const std::system_error&) {  // no thread left
+      slot->is_begun = false;
+      return std::nullopt;
+    }
+  }
+  scenegraph::await(slot->is_awaited);
+  return slot->arrival.block() ? std::optional(std::move(early)) : std::nullopt;
+}
+
+std::shared_ptr<const ChunkCache::Chunk> ChunkCache::fill(const std::shared_ptr<Slot>& slot, std::uint64_t key,
+                                                          const std::function<Chunk(scenegraph::Arrival&)>& unpack) {
   scenegraph::await(slot->is_awaited);
   std::call_once(slot->once, [&] {
+    slot->is_begun = true;
     const scenegraph::Errand errand(slot->is_awaited);
-    slot->chunk = unpack();
+    try {
+      slot->chunk = unpack(slot->arrival);
+    } catch (...) {
+      slot->gave_up = std::current_exception();  // who asks next tries anew
+      forget(key, *slot);
+      slot->arrival.finish(false);
+      return;
+    }
+    slot->arrival.finish(slot->chunk.has_value());
     std::list<Item> evicted;  // destroyed after the lock: a chunk may be large
     const std::size_t bytes = slot->chunk ? slot->chunk->size : 0;
     const std::lock_guard lock(mutex_);
@@ -52,7 +97,21 @@ std::shared_ptr<const ChunkCache::Chunk> ChunkCache::get(std::uint64_t key, cons
       letGo(evicted, std::prev(items_.end()));
     }
   });
+  if (slot->gave_up) {
+    std::rethrow_exception(slot->gave_up);
+  }
   return {slot, &slot->chunk};
+}
+
+void ChunkCache::forget(std::uint64_t key, const Slot& slot) {
+  std::list<Item> forgotten;
+  const std::lock_guard lock(mutex_);
+  if (const auto item = index_.find(key); item != index_.end() && item->second->slot.get() == &slot) {
+    letGo(forgotten, item->second);
+  }
+  if (const auto gone = let_go_.find(key); gone != let_go_.end() && gone->second.lock().get() == &slot) {
+    let_go_.erase(gone);
+  }
 }
 
 void ChunkCache::drop(std::uint64_t key) {

@@ -64,11 +64,9 @@ struct Lz4Stream {
   }
 };
 
-Buffer grown(Buffer old, std::size_t used, std::size_t size) {
+Buffer grown(const Buffer& old, std::size_t used, std::size_t size) {
   Buffer buffer = makeBuffer(size);
-  if (used > 0) {
-    std::memcpy(buffer.data.get(), old.data.get(), used);
-  }
+  std::memcpy(buffer.data.get(), old.data.get(), used);
   return buffer;
 }
 
@@ -82,7 +80,10 @@ std::expected<Buffer, std::string> unpack(const PackedBytes& packed, std::size_t
   const std::size_t limit = claimed + 1;
   const bool is_plausible = claimed <= packed.size * kPlausibleRatio;
   std::size_t capacity = is_plausible ? limit : std::min<std::size_t>(limit, packed.size * kPlausibleRatio + 4096);
-  Buffer out = grown({}, 0, capacity);
+  Buffer out = unpacking.room(capacity);
+  if (is_plausible) {
+    unpacking.begun(out);
+  }
   auto helper = unpacking.has_helper && is_plausible
                     ? UnpackHelper::start(packed, unpacking.made, std::span(out.data.get(), capacity))
                     : nullptr;
@@ -94,7 +95,7 @@ std::expected<Buffer, std::string> unpack(const PackedBytes& packed, std::size_t
   while (error == nullptr) {
     if (used == capacity && capacity < limit) {
       capacity = std::min(limit, capacity * 2);
-      out = grown(std::move(out), used, capacity);
+      out = grown(out, used, capacity);
     }
     unpacking.pause();
     const auto in = helper ? helper->from(position) : window.from(position);
@@ -130,7 +131,8 @@ std::expected<Buffer, std::string> unpack(const PackedBytes& packed, std::size_t
 
 /// Not packed at all.
 std::expected<Buffer, std::string> copy(const PackedBytes& packed, std::size_t claimed, const Unpacking& unpacking) {
-  Buffer out = makeBuffer(claimed);
+  Buffer out = unpacking.room(claimed);
+  unpacking.begun(out);
   for (std::size_t used = 0; used < claimed;) {
     unpacking.pause();
     const std::size_t taken = packed.read(
@@ -147,7 +149,7 @@ std::expected<Buffer, std::string> copy(const PackedBytes& packed, std::size_t c
 }  // namespace
 
 Buffer makeBuffer(std::size_t size) {
-  Buffer buffer{std::make_unique_for_overwrite<std::byte[]>(size), size};
+  Buffer buffer{std::make_shared_for_overwrite<std::byte[]>(size), size};
   scenegraph::useLargePages(buffer.data.get(), size);
   return buffer;
 }

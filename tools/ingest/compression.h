@@ -26,7 +26,7 @@ enum class Compression : std::uint8_t {
 
 /// Bytes without the cost of clearing them first.
 struct Buffer {
-  std::unique_ptr<std::byte[]> data;
+  std::shared_ptr<std::byte[]> data;
   std::size_t size = 0;
   [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return {data.get(), size}; }
 };
@@ -53,6 +53,11 @@ struct PackedBytes {
 /// What else decompress() is to do.
 struct Unpacking {
   Completeness completeness = Completeness::Whole;
+  /// Makes the memory for it.
+  std::function<Buffer(std::size_t)> room = &makeBuffer;
+  /// Given the memory that all comes out into, before the first piece; not where it may yet have to move, because far
+  /// less is packed than claimed.
+  std::function<void(const Buffer&)> begun = [](const Buffer&) {};
   /// Given each piece that comes out, once and in order.
   std::function<void(std::span<const std::byte>)> made = [](std::span<const std::byte>) {};
   /// Called between pieces, on the caller's thread.

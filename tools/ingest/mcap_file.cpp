@@ -202,7 +202,7 @@ void McapFile::keepSoundChunks(Index& index) {
   });
 }
 
-std::expected<Buffer, std::string> McapFile::unpack(const ChunkPlace& place, const std::function<void()>& pause) const {
+std::expected<Buffer, std::string> McapFile::unpack(const ChunkPlace& place, const Unpack& how) const {
   const auto bad = [&](const auto&... reason) {
     return std::unexpected(
         sentence("the chunk at byte ", place.offset, " of '", file_->path(), "' cannot be read: ", reason...));
@@ -244,11 +244,26 @@ std::expected<Buffer, std::string> McapFile::unpack(const ChunkPlace& place, con
                              return got;
                            }};
   std::uint32_t crc = 0;
+  std::size_t made_bytes = 0;
   const bool is_checked = !place.is_cut && header->uncompressed_crc != 0;
+  const auto begun = [&](const Buffer& out) {
+    if (how.arrival != nullptr && !place.is_cut) {
+      how.arrival->begin({out.bytes().first(static_cast<std::size_t>(header->uncompressed_size)), out.data});
+    }
+  };
+  const auto made = [&](std::span<const std::byte> piece) {
+    crc = is_checked ? crc32(piece, crc) : 0;
+    made_bytes += piece.size();
+    if (how.arrival != nullptr) {
+      how.arrival->advance(made_bytes);
+    }
+  };
   auto records = decompress(*compression, packed, header->uncompressed_size,
                             {.completeness = place.is_cut ? Completeness::Prefix : Completeness::Whole,
-                             .made = [&](std::span<const std::byte> made) { crc = is_checked ? crc32(made, crc) : 0; },
-                             .pause = pause,
+                             .room = how.room,
+                             .begun = begun,
+                             .made = made,
+                             .pause = how.pause,
                              .has_helper = header->uncompressed_size >= kWorthAHelper && !scenegraph::isSpare()});
   if (is_short) {
     return bad("the file became shorter");

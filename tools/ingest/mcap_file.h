@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "scenegraph/objects/arrival.h"
 #include "scenegraph/status.h"
 #include "tools/ingest/compression.h"
 #include "tools/ingest/file.h"
@@ -73,13 +74,18 @@ class McapFile {
   /// Appends the messages of a chunk in the order of their offsets: from its message indexes in one read, or by
   /// unpacking it when it has none or they are damaged. Not for a scanned file.
   void listMessages(std::size_t chunk, std::vector<FoundMessage>& out);
-  /// The records of a chunk, CRC checked. The error is one sentence with offset and reason. `pause` is called every
-  /// fraction of a millisecond; a chunk of 8 MiB or more takes a second thread meanwhile, unless
-  /// it is read ahead in spare time.
-  [[nodiscard]] std::expected<Buffer, std::string> unpack(
-      std::size_t chunk, const std::function<void()>& pause = [] {}) const {
-    return unpack(index_.chunks[chunk], pause);
+  /// How a chunk is unpacked.
+  struct Unpack {
+    std::function<void()> pause = [] {};                    ///< called every fraction of a millisecond
+    scenegraph::Arrival* arrival = nullptr;                 ///< is told of the records as they come, not of their end
+    std::function<Buffer(std::size_t)> room = &makeBuffer;  ///< makes the memory
+  };
+  /// The records of a chunk, CRC checked. The error is one sentence with offset and reason. A chunk of 8 MiB or more
+  /// takes a second thread meanwhile, unless it is read ahead in spare time.
+  [[nodiscard]] std::expected<Buffer, std::string> unpack(std::size_t chunk, const Unpack& how) const {
+    return unpack(index_.chunks[chunk], how);
   }
+  [[nodiscard]] std::expected<Buffer, std::string> unpack(std::size_t chunk) const { return unpack(chunk, {}); }
 
  private:
   struct Index {
@@ -103,8 +109,7 @@ class McapFile {
   void addSchema(std::span<const std::byte> content);
   void addChannel(std::span<const std::byte> content);
   [[nodiscard]] bool listFromIndex(std::size_t chunk, std::vector<FoundMessage>& out);
-  [[nodiscard]] std::expected<Buffer, std::string> unpack(
-      const ChunkPlace& place, const std::function<void()>& pause = [] {}) const;
+  [[nodiscard]] std::expected<Buffer, std::string> unpack(const ChunkPlace& place, const Unpack& how) const;
 
   std::shared_ptr<const File> file_;
   Index index_;

@@ -101,7 +101,7 @@ void McapFile::scanChunk(std::uint64_t offset, std::uint64_t length, std::uint64
   place.offset = offset;
   place.length = kRecordHeaderBytes + there;
   place.is_cut = there < length;
-  const auto records = unpack(place);
+  const auto records = unpack(place, {});
   if (!records) {
     problems_.add("BadChunk", records.error());
     return;

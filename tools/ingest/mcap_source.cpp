@@ -67,6 +67,14 @@ McapSource::McapSource(std::vector<std::shared_ptr<const McapFile>> files)
   }
 }
 
+std::function<ChunkCache::Chunk(scenegraph::Arrival&)> McapSource::unpackingOf(const Locator& place) const {
+  return [file = files_[place.file], chunk = place.chunk, shelf = shelf_](scenegraph::Arrival& arrival) {
+    return file->unpack(chunk, {.pause = &scenegraph::giveWay, .arrival = &arrival, .room = [&](std::size_t size) {
+                                  return shelf->take(size);
+                                }});
+  };
+}
+
 std::expected<McapSource::Located, scenegraph::DecodeError> McapSource::locate(const Locator& place) const {
   const McapFile& file = *files_[place.file];
   if (place.chunk == FoundMessage::kNoChunk) {
@@ -92,7 +100,7 @@ std::expected<McapSource::Located, scenegraph::DecodeError> McapSource::locate(c
   if (place.chunk >= file.chunks().size()) {
     return std::unexpected(misplaced(place, file.file().path(), "no chunk"));
   }
-  auto chunk = chunks_.get(chunkKey(place), [&] { return file.unpack(place.chunk, &scenegraph::giveWay); });
+  auto chunk = chunks_.get(chunkKey(place), unpackingOf(place));
   if (!*chunk) {
     return std::unexpected(scenegraph::DecodeError{"BadChunk", chunk->error()});
   }
@@ -103,18 +111,12 @@ std::expected<McapSource::Located, scenegraph::DecodeError> McapSource::locate(c
   return Located{std::move(chunk), records, records.subspan(static_cast<std::size_t>(place.offset))};
 }
 
-std::expected<scenegraph::AnyObject, scenegraph::DecodeError> McapSource::decode(const scenegraph::TopicInfo& topic,
-                                                                                 const scenegraph::Entry& entry) const {
-  const Locator place = Locator::unpack(entry.locator);
-  if (place.file >= files_.size()) {
-    return std::unexpected(scenegraph::DecodeError{"BadMessageIndex", "the entry is not of this recording"});
-  }
-  auto located = locate(place);
-  if (!located) {
-    return std::unexpected(std::move(located).error());
-  }
+std::expected<McapSource::Message, scenegraph::DecodeError> McapSource::parse(std::span<const std::byte> record,
+                                                                              const Locator& place,
+                                                                              const scenegraph::TopicInfo& topic,
+                                                                              const scenegraph::Entry& entry) const {
   const std::string& path = files_[place.file]->file().path();
-  FieldReader reader(located->record);
+  FieldReader reader(record);
   const auto opcode = reader.number<std::uint8_t>();
   const auto message = parseMessage(reader.bytes(reader.number<std::uint64_t>()));
   if (!reader.isGood() || opcode != static_cast<std::uint8_t>(Opcode::Message) || !message) {
@@ -130,13 +132,78 @@ std::expected<scenegraph::AnyObject, scenegraph::DecodeError> McapSource::decode
   if (channel->second.decoder.decoder == nullptr) {
     return std::unexpected(scenegraph::DecodeError{"Unsupported", channel->second.decoder.unsupported_reason});
   }
-  // A chunk of one large message, a cloud's, serves nobody but who reads that again; it is as large as a whole cache.
-  if (place.chunk != FoundMessage::kNoChunk &&
-      message->data.size() > std::max(located->block.size() / 2, kLargeMessage)) {
+  return Message{channel->second.decoder.decoder.get(), message->data};
+}
+
+/// A chunk of one large message, a cloud's, serves nobody but who reads that again; it is as large as a whole cache.
+void McapSource::dropIfNobodyElses(const Locator& place, std::size_t message_bytes, std::size_t block_bytes) const {
+  if (place.chunk != FoundMessage::kNoChunk && message_bytes > std::max(block_bytes / 2, kLargeMessage)) {
     chunks_.drop(chunkKey(place));
   }
-  return channel->second.decoder.decoder->decode(
-      {message->data, std::move(located->anchor), located->block.size(), entry.log_time});
+}
+
+std::expected<scenegraph::AnyObject, scenegraph::DecodeError> McapSource::decode(const scenegraph::TopicInfo& topic,
+                                                                                 const scenegraph::Entry& entry) const {
+  const Locator place = Locator::unpack(entry.locator);
+  if (place.file >= files_.size()) {
+    return std::unexpected(scenegraph::DecodeError{"BadMessageIndex", "the entry is not of this recording"});
+  }
+  auto located = locate(place);
+  if (!located) {
+    return std::unexpected(std::move(located).error());
+  }
+  const auto message = parse(located->record, place, topic, entry);
+  if (!message) {
+    return std::unexpected(message.error());
+  }
+  dropIfNobodyElses(place, message->data.size(), located->block.size());
+  return message->decoder->decode({message->data, std::move(located->anchor), located->block.size(), entry.log_time});
+}
+
+bool McapSource::decodesEarly(std::size_t file, const std::string& topic) const {
+  return std::ranges::any_of(channels_[file], [&](const auto& channel) {
+    const auto& decoder = channel.second.decoder.decoder;
+    return channel.second.topic == topic && decoder != nullptr && decoder->decodesEarly();
+  });
+}
+
+std::optional<scenegraph::EarlyObject> McapSource::decodeEarly(const scenegraph::TopicInfo& topic,
+                                                               const scenegraph::Entry& entry) const {
+  constexpr std::size_t kHead = std::size_t{64} << 10;  // bytes: what lies before the points, and more
+  const Locator place = Locator::unpack(entry.locator);
+  if (scenegraph::isSpare() || place.file >= files_.size() || entry.payload_bytes < kLargeMessage ||
+      place.chunk >= files_[place.file]->chunks().size() ||
+      entry.payload_bytes < files_[place.file]->chunks()[place.chunk].size / 2 ||
+      !decodesEarly(place.file, topic.name)) {
+    return std::nullopt;
+  }
+  auto early = chunks_.getEarly(chunkKey(place), unpackingOf(place));
+  const auto block = early ? early->arrival->block() : std::nullopt;
+  if (!block || place.offset >= block->bytes.size()) {
+    return std::nullopt;
+  }
+  const auto offset = static_cast<std::size_t>(place.offset);
+  const auto there = early->arrival->wait(std::min(offset + kHead, block->bytes.size()));
+  const auto message = there ? parse(block->bytes.subspan(offset), place, topic, entry)
+                             : std::expected<Message, scenegraph::DecodeError>(std::unexpect);
+  if (!message) {
+    return std::nullopt;
+  }
+  const auto data_at = static_cast<std::size_t>(message->data.data() - block->bytes.data());
+  // The chunk is found by others as long as somebody holds the arrival, which has it; the bytes outlive a failure.
+  using Held = std::pair<std::shared_ptr<const void>, std::shared_ptr<const void>>;
+  auto object = message->decoder->decodeEarly({.data = message->data,
+                                               .anchor = std::make_shared<const Held>(early->arrival, block->owner),
+                                               .anchored_bytes = block->bytes.size(),
+                                               .log_time = entry.log_time,
+                                               .arrival = early->arrival,
+                                               .place = data_at},
+                                              *there - std::min(*there, data_at));
+  if (!object) {
+    return std::nullopt;
+  }
+  dropIfNobodyElses(place, message->data.size(), block->bytes.size());
+  return scenegraph::EarlyObject{*std::move(object), std::move(early->writer)};
 }
 
 }  // namespace stillframe::ingest

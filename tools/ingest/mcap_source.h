@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <expected>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "scenegraph/store/object_store.h"
+#include "tools/ingest/buffer_shelf.h"
 #include "tools/ingest/chunk_cache.h"
 #include "tools/ingest/mcap_file.h"
 #include "tools/ingest/message_decoder.h"
@@ -47,6 +49,9 @@ class McapSource final : public scenegraph::EntrySource {
   /// Codes beside those of the decoders: "BadChunk", "BadMessageIndex" (the index points at something else).
   [[nodiscard]] std::expected<scenegraph::AnyObject, scenegraph::DecodeError> decode(
       const scenegraph::TopicInfo& topic, const scenegraph::Entry& entry) const override;
+  /// Of a large message that is most of its chunk, on a thread that does not read ahead.
+  [[nodiscard]] std::optional<scenegraph::EarlyObject> decodeEarly(const scenegraph::TopicInfo& topic,
+                                                                   const scenegraph::Entry& entry) const override;
 
  private:
   struct Located {
@@ -55,9 +60,22 @@ class McapSource final : public scenegraph::EntrySource {
     std::span<const std::byte> record;  ///< from the opcode of the message on
   };
   [[nodiscard]] std::expected<Located, scenegraph::DecodeError> locate(const Locator& place) const;
+  struct Message {
+    const MessageDecoder* decoder;
+    std::span<const std::byte> data;
+  };
+  /// What a record holds, whose first bytes are there.
+  [[nodiscard]] std::expected<Message, scenegraph::DecodeError> parse(std::span<const std::byte> record,
+                                                                      const Locator& place,
+                                                                      const scenegraph::TopicInfo& topic,
+                                                                      const scenegraph::Entry& entry) const;
+  [[nodiscard]] std::function<ChunkCache::Chunk(scenegraph::Arrival&)> unpackingOf(const Locator& place) const;
+  [[nodiscard]] bool decodesEarly(std::size_t file, const std::string& topic) const;
+  void dropIfNobodyElses(const Locator& place, std::size_t message_bytes, std::size_t block_bytes) const;
 
   std::vector<std::shared_ptr<const McapFile>> files_;
   std::vector<std::map<std::uint16_t, Channel>> channels_;  // per file
+  std::shared_ptr<BufferShelf> shelf_ = std::make_shared<BufferShelf>();
   mutable ChunkCache chunks_;
 };
 

@@ -48,6 +48,10 @@ ChannelDecoder makeDecoder(const SchemaRecord* schema, std::string_view message_
 
 scenegraph::Payload payloadOf(std::span<const std::byte> bytes, const MessageView& message) {
   constexpr std::size_t kMaxRatio = 8;
+  if (message.arrival != nullptr) {
+    return {bytes, message.anchor, message.arrival,
+            message.place + static_cast<std::size_t>(bytes.data() - message.data.data())};
+  }
   if (bytes.size() >= message.anchored_bytes / kMaxRatio) {
     return {bytes, message.anchor};
   }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <expected>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,8 @@ struct MessageView {
   std::shared_ptr<const void> anchor;  ///< keeps the block alive
   std::size_t anchored_bytes = 0;      ///< size of the block
   tf::TimePoint log_time;
+  std::shared_ptr<const scenegraph::Arrival> arrival = nullptr;  ///< of the block, if that is still being written
+  std::size_t place = 0;                                         ///< of `data` in the block, where that counts
 };
 
 /// Turns the messages of one schema into canonical objects. Any thread.
@@ -29,6 +32,12 @@ class MessageDecoder {
   virtual ~MessageDecoder() = default;
   [[nodiscard]] virtual std::expected<scenegraph::AnyObject, scenegraph::DecodeError> decode(
       const MessageView& message) const = 0;
+  /// As scenegraph::EntrySource has it, of a message of which the first `there` bytes have arrived.
+  [[nodiscard]] virtual std::optional<scenegraph::AnyObject> decodeEarly(const MessageView& /*message*/,
+                                                                         std::size_t /*there*/) const {
+    return std::nullopt;
+  }
+  [[nodiscard]] virtual bool decodesEarly() const noexcept { return false; }
 };
 
 /// What a channel of a recording is to us.
@@ -46,7 +55,7 @@ struct ChannelDecoder {
 [[nodiscard]] bool dependsOnTopic(const SchemaRecord& schema);
 
 /// Bytes of a message as a payload: a view, or a copy where the view would keep alive more than eight times its size
-/// (the object cache counts the view).
+/// (the object cache counts the view); always a view while the message is still being written.
 [[nodiscard]] scenegraph::Payload payloadOf(std::span<const std::byte> bytes, const MessageView& message);
 
 }  // namespace stillframe::ingest

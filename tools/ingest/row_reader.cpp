@@ -26,6 +26,12 @@ class ViewReader final : public RowReader {
     }
     return Read{message, nullptr};
   }
+  [[nodiscard]] bool readEarly(const MessageView& message, std::size_t there, void* row) const override {
+    if constexpr (requires { plan_.decodeEarly(message.data, there, row); }) {
+      return plan_.decodeEarly(message.data, there, row);
+    }
+    return false;
+  }
 
  private:
   Plan plan_;

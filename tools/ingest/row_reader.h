@@ -22,6 +22,10 @@ class RowReader {
   /// `row` is an object of the struct that the shape was made for.
   [[nodiscard]] virtual std::expected<Read, scenegraph::DecodeError> read(const MessageView& message,
                                                                           void* row) const = 0;
+  /// As WirePlan::decodeEarly() has it; false for other encodings.
+  [[nodiscard]] virtual bool readEarly(const MessageView& /*message*/, std::size_t /*there*/, void* /*row*/) const {
+    return false;
+  }
 };
 
 /// The reader of a schema by the encoding of the messages: "cdr" and "ros1" by the ROS definition, "protobuf" by the

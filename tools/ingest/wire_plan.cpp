@@ -145,7 +145,7 @@ struct PlanRunner {
     if (op.is_sequence && !reader.number(count)) {
       return false;
     }
-    if (count > 0 && (!reader.skip(op.alignment, 0) || !reader.take(count * op.size, raw))) {
+    if (count > 0 && (!reader.skip(op.alignment, 0) || !reader.takeNow(count * op.size, raw))) {
       return false;
     }
     switch (op.slot) {
@@ -232,8 +232,8 @@ struct PlanRunner {
   }
 
   template <typename Format>
-  std::expected<void, scenegraph::DecodeError> decode(std::span<const std::byte> body, void* row) {
-    WireReader<Format> reader(body);
+  std::expected<void, scenegraph::DecodeError> decode(std::span<const std::byte> body, std::size_t there, void* row) {
+    WireReader<Format> reader(body, there);
     if (run(plan.steps_[plan.root_], reader, row)) {
       return {};
     }
@@ -253,12 +253,21 @@ struct PlanRunner {
 };
 
 std::expected<void, scenegraph::DecodeError> WirePlan::decode(std::span<const std::byte> message, void* row) const {
+  return decode(message, message.size(), row);
+}
+
+bool WirePlan::decodeEarly(std::span<const std::byte> message, std::size_t there, void* row) const {
+  return decode(message, std::min(there, message.size()), row).has_value();
+}
+
+std::expected<void, scenegraph::DecodeError> WirePlan::decode(std::span<const std::byte> message, std::size_t there,
+                                                              void* row) const {
   PlanRunner runner{*this, rowBudget(message.size()), {}};
   if (is_ros1_) {
-    return runner.decode<Ros1Packed>(message, row);
+    return runner.decode<Ros1Packed>(message, there, row);
   }
   constexpr std::size_t kEncapsulationBytes = 4;
-  if (message.size() < kEncapsulationBytes) {
+  if (there < kEncapsulationBytes) {
     return std::unexpected(scenegraph::DecodeError{
         "TruncatedMessage", sentence("the message has ", message.size(), " bytes, fewer than the header of CDR")});
   }
@@ -266,9 +275,9 @@ std::expected<void, scenegraph::DecodeError> WirePlan::decode(std::span<const st
   const auto body = message.subspan(kEncapsulationBytes);
   switch (kind) {
     case 0:
-      return runner.decode<CdrBig>(body, row);
+      return runner.decode<CdrBig>(body, there - kEncapsulationBytes, row);
     case 1:
-      return runner.decode<CdrLittle>(body, row);
+      return runner.decode<CdrLittle>(body, there - kEncapsulationBytes, row);
     default:
       return std::unexpected(
           scenegraph::DecodeError{"BadEncapsulation", sentence("the message is not plain CDR: its kind is ", kind)});

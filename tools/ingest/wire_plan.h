@@ -27,6 +27,9 @@ class WirePlan {
   /// "TooManyElements".
   [[nodiscard]] std::expected<void, scenegraph::DecodeError> decode(std::span<const std::byte> message,
                                                                     void* row) const;
+  /// The same of a message of which the first `there` bytes have arrived: whether they are enough for all but the
+  /// content of byte arrays.
+  [[nodiscard]] bool decodeEarly(std::span<const std::byte> message, std::size_t there, void* row) const;
 
  private:
   friend class PlanCompiler;
@@ -65,6 +68,9 @@ class WirePlan {
     std::vector<std::string> names;
     std::uint64_t min_bytes = 0;  ///< fewer than that no such message has
   };
+
+  [[nodiscard]] std::expected<void, scenegraph::DecodeError> decode(std::span<const std::byte> message,
+                                                                    std::size_t there, void* row) const;
 
   bool is_ros1_ = false;
   std::size_t root_ = 0;

@@ -44,13 +44,15 @@ template <typename T, bool IsSwapped>
 template <typename Format>
 class WireReader {
  public:
-  explicit WireReader(std::span<const std::byte> bytes) noexcept : bytes_(bytes) {}
+  /// Of `bytes` the first `there` may be read; the rest are yet to come.
+  explicit WireReader(std::span<const std::byte> bytes, std::size_t there) noexcept : bytes_(bytes), there_(there) {}
+  explicit WireReader(std::span<const std::byte> bytes) noexcept : WireReader(bytes, bytes.size()) {}
 
   [[nodiscard]] std::size_t left() const noexcept { return bytes_.size() - position_; }
   /// Size of the last value that did not fit.
   [[nodiscard]] std::uint64_t wanted() const noexcept { return wanted_; }
 
-  /// `size` raw bytes.
+  /// `size` raw bytes, which need not be there yet.
   [[nodiscard]] bool take(std::uint64_t size, std::span<const std::byte>& out) noexcept {
     if (size > left()) {
       wanted_ = size;
@@ -60,6 +62,10 @@ class WireReader {
     position_ += static_cast<std::size_t>(size);
     return true;
   }
+  /// `size` raw bytes to be read now.
+  [[nodiscard]] bool takeNow(std::uint64_t size, std::span<const std::byte>& out) noexcept {
+    return take(size, out) && position_ <= there_;
+  }
   /// Passes over `size` bytes that begin at a multiple of `alignment`.
   [[nodiscard]] bool skip(std::size_t alignment, std::uint64_t size) noexcept {
     std::span<const std::byte> ignored;
@@ -67,7 +73,7 @@ class WireReader {
   }
   template <typename T>
   [[nodiscard]] bool number(T& out) noexcept {
-    if (!align(sizeof(T)) || sizeof(T) > left()) {
+    if (!align(sizeof(T)) || sizeof(T) > left() || position_ + sizeof(T) > there_) {
       wanted_ = sizeof(T);
       return false;
     }
@@ -79,7 +85,7 @@ class WireReader {
   [[nodiscard]] bool text(std::string_view& out) noexcept {
     std::uint32_t length = 0;
     std::span<const std::byte> raw;
-    if (!number(length) || !take(length, raw)) {
+    if (!number(length) || !takeNow(length, raw)) {
       return false;
     }
     out = {reinterpret_cast<const char*>(raw.data()), raw.size()};
@@ -103,6 +109,7 @@ class WireReader {
   }
 
   std::span<const std::byte> bytes_;
+  std::size_t there_;
   std::size_t position_ = 0;
   std::uint64_t wanted_ = 0;
 };

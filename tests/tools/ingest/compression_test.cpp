@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "tools/ingest/buffer_shelf.h"
 #include "tools/ingest/sentence.h"
 
 namespace stillframe::ingest {
@@ -76,6 +78,43 @@ TEST(Compression, FewerBytesThanWereSaidAreAnErrorOrAPrefix) {
       }
     }
   }
+}
+
+TEST(Compression, TellsWhereAllComesOutBeforeItDoes) {
+  const auto bytes = someBytes(1'000'000);
+  const std::vector<std::byte> zeros(1'000'000);  // packed so far that the claim alone says nothing
+  for (const Compression compression : {Compression::None, Compression::Lz4, Compression::Zstd}) {
+    const std::byte* began = nullptr;
+    std::size_t made_before = 0;
+    const Unpacking unpacking{.begun = [&](const Buffer& out) { began = out.data.get(); },
+                              .made = [&](std::span<const std::byte>) { made_before += began == nullptr ? 1 : 0; }};
+    const auto packed = compress(compression, bytes);
+    const auto unpacked = decompress(compression, inPieces(*packed, 4096, packed->size()), bytes.size(), unpacking);
+    ASSERT_TRUE(unpacked);
+    EXPECT_EQ(began, unpacked->data.get()) << toString(compression);
+    EXPECT_EQ(made_before, 0U);
+    if (compression != Compression::None) {
+      began = nullptr;
+      const auto all_zero = compress(compression, zeros);
+      const auto packed_zeros = inPieces(*all_zero, 4096, all_zero->size());
+      EXPECT_TRUE(decompress(compression, packed_zeros, zeros.size(), unpacking));
+      EXPECT_EQ(began, nullptr) << "it may have to move: " << toString(compression);
+    }
+  }
+}
+
+TEST(BufferShelf, GivesLargeMemoryOutAgain) {
+  const auto shelf = std::make_shared<BufferShelf>();
+  constexpr std::size_t kMib = std::size_t{1} << 20;
+  const auto placeOf = [&](std::size_t size) { return shelf->take(size).data.get(); };
+  std::byte* const large = placeOf(40 * kMib);
+  EXPECT_EQ(placeOf(40 * kMib), large);
+  EXPECT_EQ(placeOf(25 * kMib), large);
+  const Buffer held = shelf->take(40 * kMib);
+  EXPECT_EQ(held.data.get(), large) << "all of what was given back, though less of it was used";
+  const Buffer other = shelf->take(40 * kMib);
+  EXPECT_NE(other.data.get(), large);
+  EXPECT_NE(placeOf(kMib), large);
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "scenegraph/objects/frame_transforms.h"
 #include "scenegraph/objects/point_cloud.h"
 #include "tests/tools/ingest/ros_samples.h"
@@ -65,6 +68,33 @@ TEST_P(WireOrder, DecodesCloudsWithoutCopying) {
   EXPECT_EQ(cloud->data.bytes[59], std::byte{59});
   EXPECT_GE(cloud->data.bytes.data(), bytes.data());
   EXPECT_LE(cloud->data.bytes.data() + 60, bytes.data() + bytes.size());
+}
+
+TEST_P(WireOrder, DecodesCloudsOfWhichOnlyWhatLiesBeforeThePointsIsThere) {
+  const auto decoder = decoderFor(schema("sensor_msgs/msg/PointCloud2", test::kCloudDefinition));
+  ASSERT_TRUE(decoder.decoder->decodesEarly());
+  const auto bytes = test::cloudMessage(7, 5, GetParam());
+  const auto whole = decoder.decoder->decode(view(bytes))->get<scenegraph::PointCloud>();
+  const auto points_at = static_cast<std::size_t>(whole->data.bytes.data() - bytes.data());
+  auto rubbish = bytes;  // in the place of what has not come
+  std::fill(rubbish.begin() + static_cast<std::ptrdiff_t>(points_at), rubbish.end(), std::byte{0xFF});
+  MessageView arriving = view(rubbish);
+  arriving.arrival = std::make_shared<scenegraph::Arrival>();
+  arriving.place = 1000;
+  const auto object = decoder.decoder->decodeEarly(arriving, points_at);
+  ASSERT_TRUE(object);
+  const auto cloud = object->get<scenegraph::PointCloud>();
+  EXPECT_EQ(cloud->frame_id, whole->frame_id);
+  EXPECT_EQ(cloud->width, whole->width);
+  EXPECT_EQ(cloud->row_step, whole->row_step);
+  ASSERT_EQ(cloud->fields.size(), 3u);
+  EXPECT_EQ(cloud->fields[2].name, "z");
+  EXPECT_EQ(cloud->data.bytes.size(), whole->data.bytes.size());
+  EXPECT_EQ(cloud->data.place, 1000 + points_at);
+  EXPECT_EQ(cloud->data.arrival, arriving.arrival);
+  for (std::size_t there = 0; there < points_at; ++there) {
+    EXPECT_FALSE(decoder.decoder->decodeEarly(arriving, there)) << there << " bytes of " << points_at;
+  }
 }
 
 TEST_P(WireOrder, EveryCutIsTypedAndNamesBytes) {

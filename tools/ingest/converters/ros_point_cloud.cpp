@@ -29,7 +29,8 @@ struct RosCloudRow {
   bool is_dense = false;
 };
 
-Shape cloudShape() {
+/// Of what lies before the points, and them: nothing that comes after.
+Shape earlyShape() {
   Shape field;
   field.field<&PointFieldRow::name>("name")
       .field<&PointFieldRow::offset>("offset")
@@ -44,8 +45,13 @@ Shape cloudShape() {
       .field<&RosCloudRow::is_bigendian>("is_bigendian")
       .field<&RosCloudRow::point_step>("point_step")
       .field<&RosCloudRow::row_step>("row_step")
-      .field<&RosCloudRow::data>("data")
-      .field<&RosCloudRow::is_dense>("is_dense");
+      .field<&RosCloudRow::data>("data");
+  return cloud;
+}
+
+Shape cloudShape() {
+  Shape cloud = earlyShape();
+  cloud.field<&RosCloudRow::is_dense>("is_dense");
   return cloud;
 }
 
@@ -67,10 +73,39 @@ RowDecoder<RosCloudRow>::Result convert(RosCloudRow& row, const MessageView& mes
   return scenegraph::AnyObject::make(std::move(cloud));
 }
 
+class CloudDecoder final : public MessageDecoder {
+ public:
+  CloudDecoder(std::unique_ptr<MessageDecoder> whole, std::unique_ptr<RowReader> early)
+      : whole_(std::move(whole)), early_(std::move(early)) {}
+  [[nodiscard]] std::expected<scenegraph::AnyObject, scenegraph::DecodeError> decode(
+      const MessageView& message) const override {
+    return whole_->decode(message);
+  }
+  [[nodiscard]] std::optional<scenegraph::AnyObject> decodeEarly(const MessageView& message,
+                                                                 std::size_t there) const override {
+    RosCloudRow row;
+    if (!early_->readEarly(message, there, &row)) {
+      return std::nullopt;
+    }
+    auto cloud = convert(row, message);
+    return cloud ? std::optional(*std::move(cloud)) : std::nullopt;
+  }
+  [[nodiscard]] bool decodesEarly() const noexcept override { return true; }
+
+ private:
+  std::unique_ptr<MessageDecoder> whole_;
+  std::unique_ptr<RowReader> early_;
+};
+
 }  // namespace
 
 Created rosPointCloud(const SchemaRecord& schema, std::string_view message_encoding) {
-  return RowDecoder<RosCloudRow>::create(schema, message_encoding, cloudShape(), convert);
+  auto whole = RowDecoder<RosCloudRow>::create(schema, message_encoding, cloudShape(), convert);
+  auto early = makeRowReader(schema, message_encoding, earlyShape());
+  if (!whole || !early) {
+    return whole;
+  }
+  return std::make_unique<CloudDecoder>(*std::move(whole), *std::move(early));
 }
 
 }  // namespace stillframe::ingest::converters

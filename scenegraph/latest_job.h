@@ -65,7 +65,9 @@ class LatestJob {
         return;
       }
     }
-    executor_.submit([state = state_, requester = std::this_thread::get_id()] { run(*state, requester); });
+    executor_.submit([state = state_, requester = std::this_thread::get_id(), executor = &executor_] {
+      run(*state, requester, *executor);
+    });
   }
   /// Wants nothing any more.
   void cancel() {
@@ -110,7 +112,7 @@ class LatestJob {
           Status{StatusLevel::Error, "ConversionFailed", std::string("the conversion gave up: ") + error.what()});
     }
   }
-  static void run(State& state, std::thread::id requester) {
+  static void run(State& state, std::thread::id requester, Executor& executor) {
     std::unique_lock lock(state.mutex);
     while (state.queued) {
       std::optional<Work> work = std::exchange(state.queued, std::nullopt);
@@ -128,7 +130,8 @@ class LatestJob {
         }
       }
       lock.unlock();
-      work.reset();  // outside of the lock, and once its result is there: it may hold much memory
+      // What it holds may be much memory, and giving that back takes long: after all that waits to be made.
+      executor.submit([rest = std::make_shared<const Work>(*std::exchange(work, std::nullopt))] {});
       lock.lock();
     }
     state.is_running = false;

@@ -115,7 +115,7 @@ struct SampleWork {
   }
 };
 
-/// load() for LatestJob, which lets go of the message when the product was told.
+/// load() for LatestJob, which lets go of the message when the product was told, and all else that waits is made.
 template <typename Product>
 [[nodiscard]] auto jobOf(std::shared_ptr<const SampleWork<Product>> work, TopicId topic, const Entry& entry) {
   return [work = std::move(work), topic, entry, message = std::make_shared<EarlyObject>()] {

@@ -34,17 +34,21 @@ Buffer BufferShelf::take(std::size_t size) {
 
 /// The newest ones: what is as large as the last will be wanted next.
 void BufferShelf::keep(Block block) {
+  std::vector<Block> too_many;
   if (block.size > kMostBytes) {
-    return;
+    too_many.push_back(std::move(block));
+  } else {
+    const std::scoped_lock lock(mutex_);
+    bytes_ += block.size;
+    blocks_.push_back(std::move(block));
+    while (bytes_ > kMostBytes) {
+      bytes_ -= blocks_.front().size;
+      too_many.push_back(std::move(blocks_.front()));
+      blocks_.erase(blocks_.begin());
+    }
   }
-  std::vector<Block> too_many;  // destroyed after the lock
-  const std::scoped_lock lock(mutex_);
-  bytes_ += block.size;
-  blocks_.push_back(std::move(block));
-  while (bytes_ > kMostBytes) {
-    bytes_ -= blocks_.front().size;
-    too_many.push_back(std::move(blocks_.front()));
-    blocks_.erase(blocks_.begin());
+  for (const Block& freed : too_many) {
+    scenegraph::releasePages(freed.bytes.get(), freed.size);
   }
 }
 

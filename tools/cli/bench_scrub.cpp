@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,29 @@ void report(std::vector<BenchResult>& results, const std::string& name, const st
   line("tick, on the window's thread", &BenchStep::tick_ms, kUnnoticed);
   line("step of a frame, on the window's thread", &BenchStep::stall_ms, kUnnoticed);
   line("frame", &BenchStep::frame_ms, 1.3 * BenchView::kBudgetMs);
+}
+
+/// How long the machine takes a core away from a loop that does nothing but look at the clock, on all of them at once:
+/// shorter than that nothing can be promised to be.
+double longestGapMs() {
+  constexpr double kLookedMs = 10'000.0;
+  std::vector<double> gaps_ms(std::max(1U, std::thread::hardware_concurrency()));
+  {
+    std::vector<std::jthread> threads;
+    for (double& gap_ms : gaps_ms) {
+      threads.emplace_back([&gap_ms] {
+        const Clock::time_point start = Clock::now();
+        double longest_ms = 0.0;
+        for (double at_ms = 0.0; at_ms < kLookedMs;) {
+          const double now_ms = scenegraph::millisecondsSince(start);
+          longest_ms = std::max(longest_ms, now_ms - at_ms);
+          at_ms = now_ms;
+        }
+        gap_ms = longest_ms;
+      });
+    }
+  }
+  return std::ranges::max(gaps_ms);
 }
 
 constexpr int kMoreViews = 4;
@@ -134,6 +158,7 @@ Result<void> benchScrub(const RecordingOptions& options, std::vector<BenchResult
   if (const auto heap = reportHeap(dataset, *first_time, heapMib() - heap_before_mib, results); !heap) {
     return heap;
   }
+  results.push_back({"longest that a loop that does nothing is without its core, in 10 s", longestGapMs(), "ms"});
   const double span_ns = tf::secondsBetween(range->first, range->second) * 1e9;
   for (const char* const name : {"scrub, first visit", "scrub, again"}) {
     std::vector<BenchStep> steps;

@@ -34,7 +34,10 @@ class SampleLayer : public TopicLayer {
   struct Source {
     scenegraph::ObjectType type = scenegraph::ObjectType::None;
     std::string tag;  ///< of the products in the cache
-    typename Loader::Convert convert;
+    /// Of what the store holds, never null, for the settings at that time.
+    using Convert =
+        std::function<std::expected<Product, scenegraph::Status>(const scenegraph::AnyObject&, const Settings&)>;
+    Convert convert;
     typename Loader::IsReference is_reference;  ///< what reference() may be
     /// Makes beforehand what these settings will ask of the product; may be empty.
     std::function<void(const Product&, const Settings&)> prepare = nullptr;
@@ -65,9 +68,10 @@ class SampleLayer : public TopicLayer {
         [source = source_, latest = latest_, topic = topic(), dataset = context.dataset.weak_from_this()](
             const scenegraph::AnyObject& object,
             const scenegraph::Entry& entry) -> std::expected<Product, scenegraph::Status> {
-          auto product = source.convert(object, entry);
+          const Settings settings = latest->get();
+          auto product = source.convert(object, settings);
           if (product && source.prepare) {
-            source.prepare(*product, latest->get());
+            source.prepare(*product, settings);
           }
           if (product && source.settle) {
             source.settle(*product, {dataset, topic, source.type, entry});

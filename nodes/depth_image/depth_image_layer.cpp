@@ -24,7 +24,7 @@ DepthImageLayer::DepthImageLayer(std::string_view topic)
           {.type = scenegraph::ObjectType::Image,
            .tag = "depth",
            .convert = [](const scenegraph::AnyObject& object,
-                         const scenegraph::Entry&) { return DepthFrame::make(object.get<scenegraph::Image>()); },
+                         const DepthImageSettings&) { return DepthFrame::make(object.get<scenegraph::Image>()); },
            .is_reference = [](const DepthFrame& frame) { return frame.valid > 0; }},
           depthImageSettingsTable()) {}
 

@@ -25,7 +25,7 @@ GridMapLayer::GridMapLayer(std::string_view topic)
           {.type = scenegraph::ObjectType::GridMap,
            .tag = "grid map",
            .convert = [](const scenegraph::AnyObject& object,
-                         const scenegraph::Entry&) { return GridSurface::make(object.get<scenegraph::GridMap>()); },
+                         const GridMapSettings&) { return GridSurface::make(object.get<scenegraph::GridMap>()); },
            .is_reference = [](const GridSurface& map) { return map.cells().all.points > 0; },
            .prepare = &GridMapLayer::prepare},
           gridMapSettingsTable()) {}

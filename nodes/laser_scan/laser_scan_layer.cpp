@@ -13,13 +13,13 @@ namespace {
 using scenegraph::Status;
 using scenegraph::StatusLevel;
 
-std::expected<CloudPoints, Status> pointsOf(const scenegraph::AnyObject& object, const scenegraph::Entry&) {
+std::expected<CloudPoints, Status> pointsOf(const scenegraph::AnyObject& object, const PointCloudSettings& settings) {
   auto scan = convertScan(*object.get<scenegraph::LaserScan>());
   if (!scan) {
     return std::unexpected(scan.error());
   }
   return CloudPoints::make(std::make_shared<const scenegraph::PointCloud>(std::move(scan->cloud)),
-                           {.left_out = scan->dropped, .duration_s = scan->duration_s});
+                           {.left_out = scan->dropped, .duration_s = scan->duration_s}, wantedChannel(settings));
 }
 
 CloudFeed scanFeed() {
@@ -139,7 +139,7 @@ LaserScanLayer::Shown LaserScanLayer::drawnOf(const Shown& loaded) {
                       [loaded, plan = *plan_, settings = chosen()]() -> scenegraph::LatestJob<CloudPoints>::Result {
                         auto points = CloudPoints::make(std::make_shared<const scenegraph::PointCloud>(
                                                             deskew(loaded->source(), plan.motion, plan.first_beam)),
-                                                        loaded->supplement());
+                                                        loaded->supplement(), wantedChannel(settings));
                         if (!points) {
                           return std::unexpected(points.error());
                         }

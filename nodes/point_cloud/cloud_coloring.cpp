@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace stillframe::nodes {
 namespace {
@@ -75,6 +76,13 @@ ColorChoice chooseColor(const std::string& color_field, const CloudPoints& refer
     return *choiceOf(automaticField(cloud), cloud);
   }
   return ColorChoice{.mode = ColorMode::Flat, .channel = "", .is_missing = true};
+}
+
+CloudPoints::WantedChannel wantedChannel(const PointCloudSettings& settings) {
+  return [field = settings.color_field](const CloudPoints& cloud) -> std::optional<std::string> {
+    ColorChoice choice = chooseColor(field, cloud, cloud);
+    return choice.mode == ColorMode::Value ? std::optional(std::move(choice.channel)) : std::nullopt;
+  };
 }
 
 ValueRange channelRange(const PointCloudSettings& settings, const std::string& channel, const CloudPoints& reference,

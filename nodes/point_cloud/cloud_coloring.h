@@ -27,6 +27,9 @@ struct ColorChoice {
 [[nodiscard]] ColorChoice chooseColor(const std::string& color_field, const CloudPoints& reference,
                                       const CloudPoints& cloud);
 
+/// The channel that colours by these settings will come from, for CloudPoints::make().
+[[nodiscard]] CloudPoints::WantedChannel wantedChannel(const PointCloudSettings& settings);
+
 /// Makes what colours of that choice, in the range that the settings ask for, need of `cloud`: the rest is then quick,
 /// but for what moves. Milliseconds per million points the first time; any thread.
 void prepareColors(const CloudPoints& cloud, const ColorChoice& choice, const PointCloudSettings& settings);

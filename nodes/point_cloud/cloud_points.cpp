@@ -30,15 +30,28 @@ CloudPoints& CloudPoints::operator=(CloudPoints&&) noexcept = default;
 CloudPoints::~CloudPoints() = default;
 
 std::expected<CloudPoints, scenegraph::Status> CloudPoints::make(std::shared_ptr<const scenegraph::PointCloud> cloud,
-                                                                 const CloudSupplement& supplement) {
+                                                                 const CloudSupplement& supplement,
+                                                                 const WantedChannel& wanted) {
   CloudPoints points;
   points.supplement_ = supplement;
   points.positions_ = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
   points.positions_->setVertexBufferObject(new osg::VertexBufferObject);
-  auto converted = convertCloud(*cloud, [&](std::size_t floats) {
+  points.channels_ = listChannels(*cloud);
+  points.color_source_ = findColors(*cloud);
+  const std::optional<std::string> name = wanted ? wanted(points) : std::nullopt;
+  osg::ref_ptr<osg::FloatArray> values;
+  std::optional<ChannelAlong> along;
+  if (const ChannelInfo* const info = name ? points.findChannel(*name) : nullptr) {
+    along.emplace(*cloud, *info, [&](std::size_t count) {
+      values = makeArray<osg::FloatArray>(count);
+      return values->asVector().data();
+    });
+  }
+  const auto room = [&](std::size_t floats) {
     makeRoom(*points.positions_, floats / 3);
     return points.positions_->front().ptr();
-  });
+  };
+  auto converted = convertCloud(*cloud, room, along ? &*along : nullptr);
   if (!converted) {
     return std::unexpected(scenegraph::Status{
         scenegraph::StatusLevel::Error, std::string(toString(converted.error().code)), converted.error().message});
@@ -46,8 +59,10 @@ std::expected<CloudPoints, scenegraph::Status> CloudPoints::make(std::shared_ptr
   points.converted_ = std::move(*converted);
   points.positions_->resize(points.converted_.points);
   scenegraph::setBoxes(*points.positions_, std::move(points.converted_.boxes));
-  points.channels_ = listChannels(*cloud);
-  points.color_source_ = findColors(*cloud);
+  if (values.valid()) {
+    values->resize(points.converted_.points);
+    points.lazy_->channels[*name] = {values, along->finish(points.converted_)};
+  }
   points.message_bytes_ = cloud->data.bytes.size();
   points.cloud_ = std::move(cloud);
   return points;
@@ -85,9 +100,14 @@ std::shared_ptr<const scenegraph::PointCloud> CloudPoints::holdMessage() const {
   return message;
 }
 
+const ChannelInfo* CloudPoints::findChannel(std::string_view name) const {
+  const auto found = std::ranges::find(channels_, name, &ChannelInfo::name);
+  return found != channels_.end() ? &*found : nullptr;
+}
+
 const CloudChannel* CloudPoints::channel(std::string_view name) const {
-  const auto info = std::ranges::find(channels_, name, &ChannelInfo::name);
-  if (info == channels_.end()) {
+  const ChannelInfo* const info = findChannel(name);
+  if (info == nullptr) {
     return nullptr;
   }
   const std::scoped_lock lock(lazy_->mutex);

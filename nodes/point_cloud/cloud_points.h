@@ -44,8 +44,12 @@ struct CloudSupplement {
 class CloudPoints {
  public:
   using ReadMessage = std::function<std::shared_ptr<const scenegraph::PointCloud>()>;
+  /// Which channel of a cloud will be asked for, if any, by what it could have: its points are not there yet.
+  using WantedChannel = std::function<std::optional<std::string>(const CloudPoints&)>;
+  /// The wanted channel is made in the same pass over the data.
   [[nodiscard]] static std::expected<CloudPoints, scenegraph::Status> make(
-      std::shared_ptr<const scenegraph::PointCloud> cloud, const CloudSupplement& supplement = {});
+      std::shared_ptr<const scenegraph::PointCloud> cloud, const CloudSupplement& supplement = {},
+      const WantedChannel& wanted = nullptr);
   CloudPoints(CloudPoints&&) noexcept;
   CloudPoints& operator=(CloudPoints&&) noexcept;
   ~CloudPoints();
@@ -92,6 +96,7 @@ class CloudPoints {
  private:
   struct Lazy;
   CloudPoints();
+  [[nodiscard]] const ChannelInfo* findChannel(std::string_view name) const;
 
   std::shared_ptr<const scenegraph::PointCloud> cloud_;  // without its bytes once `read_` brings them
   std::size_t message_bytes_ = 0;

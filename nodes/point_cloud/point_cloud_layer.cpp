@@ -23,9 +23,9 @@ CloudFeed feedOf(scenegraph::ObjectType type,
                  const std::function<CloudFeed::Cloud(const scenegraph::AnyObject&)>& read) {
   CloudFeed feed{.type = type, .convert = {}, .settle = {}, .defaults = {}};
   feed.convert = [read](const scenegraph::AnyObject& object,
-                        const scenegraph::Entry&) -> std::expected<CloudPoints, Status> {
+                        const PointCloudSettings& settings) -> std::expected<CloudPoints, Status> {
     auto cloud = read(object);
-    return cloud ? CloudPoints::make(std::move(*cloud)) : std::unexpected(cloud.error());
+    return cloud ? CloudPoints::make(std::move(*cloud), {}, wantedChannel(settings)) : std::unexpected(cloud.error());
   };
   feed.settle = [read](CloudPoints& points, const scenegraph::MessageOrigin& origin) {
     points.settle([read, origin]() -> std::shared_ptr<const scenegraph::PointCloud> {

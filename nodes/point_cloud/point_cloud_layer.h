@@ -24,8 +24,10 @@ namespace stillframe::nodes {
 struct CloudFeed {
   using Cloud = std::expected<std::shared_ptr<const scenegraph::PointCloud>, scenegraph::Status>;
   scenegraph::ObjectType type = scenegraph::ObjectType::PointCloud;
-  std::string tag = "points";                              ///< of the products in the cache
-  scenegraph::SampleLoader<CloudPoints>::Convert convert;  ///< runs on workers; captures values only
+  std::string tag = "points";  ///< of the products in the cache
+  /// Runs on workers; captures values only.
+  std::function<std::expected<CloudPoints, scenegraph::Status>(const scenegraph::AnyObject&, const PointCloudSettings&)>
+      convert;
   std::function<void(CloudPoints&, const scenegraph::MessageOrigin&)> settle;  ///< the same; empty: messages stay
   PointCloudSettings defaults;
 };

@@ -4,8 +4,10 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "nodes/points/point_colors.h"
 #include "nodes/points/point_pieces.h"
@@ -58,6 +60,22 @@ Reach<T> readValues(const std::byte* at, std::size_t count, std::size_t step, fl
   return reach;
 }
 
+template <typename T>
+Reach<T> joined(const Reach<T>& a, const Reach<T>& b) {
+  return {std::min(a.low, b.low), std::max(a.high, b.high), a.finite + b.finite};
+}
+
+template <typename T>
+ChannelValues valuesOf(const Reach<T>& reach) {
+  if (reach.finite == 0) {
+    return {};
+  }
+  return {.offset = 0.0,
+          .low = static_cast<double>(reach.low),
+          .high = static_cast<double>(reach.high),
+          .finite = reach.finite};
+}
+
 template <typename T, bool kSwapped>
 ChannelValues readChannel(const std::byte* data, const ConvertedCloud& converted, std::size_t field_offset,
                           std::span<float> values) {
@@ -69,13 +87,9 @@ ChannelValues readChannel(const std::byte* data, const ConvertedCloud& converted
   });
   Reach<T> all;
   for (const Reach<T>& reach : reaches) {
-    all = {std::min(all.low, reach.low), std::max(all.high, reach.high), all.finite + reach.finite};
+    all = joined(all, reach);
   }
-  if (all.finite == 0) {
-    return {};
-  }
-  return {
-      .offset = 0.0, .low = static_cast<double>(all.low), .high = static_cast<double>(all.high), .finite = all.finite};
+  return valuesOf(all);
 }
 
 template <typename T, bool kSwapped>
@@ -88,6 +102,18 @@ void rewriteRelative(const std::byte* data, const ConvertedCloud& converted, std
     }
   };
   forPieces(converted, piecesOf(converted), rewrite);
+}
+
+/// `found` of values that were read as they are; where floats would not tell them apart, they are written anew.
+ChannelValues toldApart(ChannelValues found, const PointCloud& cloud, const ConvertedCloud& converted,
+                        const ChannelInfo& channel, std::span<float> values) {
+  if (std::max(std::abs(found.low), std::abs(found.high)) > kExactIntegers) {
+    found.offset = std::rint(found.low / 2 + found.high / 2);
+    withFieldType(channel.type, cloud.is_bigendian, [&]<typename T, bool kSwapped>() {
+      rewriteRelative<T, kSwapped>(cloud.data.bytes.data(), converted, channel.offset, found.offset, values);
+    });
+  }
+  return found;
 }
 
 std::string lowerCase(std::string_view text) {
@@ -138,12 +164,43 @@ ChannelValues convertChannel(const PointCloud& cloud, const ConvertedCloud& conv
   const std::byte* const data = cloud.data.bytes.data();
   withFieldType(channel.type, cloud.is_bigendian, [&]<typename T, bool kSwapped>() {
     result = readChannel<T, kSwapped>(data, converted, channel.offset, values);
-    if (std::max(std::abs(result.low), std::abs(result.high)) > kExactIntegers) {
-      result.offset = std::rint(result.low / 2 + result.high / 2);
-      rewriteRelative<T, kSwapped>(data, converted, channel.offset, result.offset, values);
-    }
   });
-  return result;
+  return toldApart(result, cloud, converted, channel, values);
+}
+
+ChannelAlong::ChannelAlong(const PointCloud& cloud, ChannelInfo channel, Room room)
+    : cloud_(cloud), channel_(std::move(channel)), room_(std::move(room)) {}
+
+void ChannelAlong::begin(std::size_t points) { values_ = room_(points); }
+
+void ChannelAlong::add(std::span<const PointRun> runs, std::size_t place) {
+  ChannelValues found;
+  withFieldType(channel_.type, cloud_.is_bigendian, [&]<typename T, bool kSwapped>() {
+    const std::byte* const data = cloud_.data.bytes.data() + channel_.offset;
+    float* to = values_ + place;
+    Reach<T> reach;
+    for (const PointRun& run : runs) {
+      reach = readValues<T, kSwapped>(data + run.offset, run.count, cloud_.point_step, to, reach);
+      to += run.count;
+    }
+    found = valuesOf(reach);
+  });
+  if (found.finite == 0) {
+    return;
+  }
+  const std::scoped_lock lock(mutex_);
+  const bool is_first = found_.finite == 0;
+  found_.low = is_first ? found.low : std::min(found_.low, found.low);
+  found_.high = is_first ? found.high : std::max(found_.high, found.high);
+  found_.finite += found.finite;
+}
+
+void ChannelAlong::move(std::size_t from, std::size_t count, std::size_t to) {
+  std::memmove(values_ + to, values_ + from, count * sizeof(float));
+}
+
+ChannelValues ChannelAlong::finish(const ConvertedCloud& converted) {
+  return toldApart(found_, cloud_, converted, channel_, {values_, converted.points});
 }
 
 }  // namespace stillframe::nodes

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,5 +46,27 @@ struct ChannelValues {
 /// Writes `converted.points` values of `channel` to `values`. The cloud is the one that was converted. Any thread.
 ChannelValues convertChannel(const scenegraph::PointCloud& cloud, const ConvertedCloud& converted,
                              const ChannelInfo& channel, std::span<float> values);
+
+/// The same made in one pass with the positions: given to convertCloud(), whose cloud it is, and finished after that.
+class ChannelAlong final : public AlongPositions {
+ public:
+  /// Called once at most: room for the values of so many points.
+  using Room = std::function<float*(std::size_t points)>;
+  /// `cloud` outlives it.
+  ChannelAlong(const scenegraph::PointCloud& cloud, ChannelInfo channel, Room room);
+
+  void begin(std::size_t points) override;
+  void add(std::span<const PointRun> runs, std::size_t place) override;
+  void move(std::size_t from, std::size_t count, std::size_t to) override;
+  [[nodiscard]] ChannelValues finish(const ConvertedCloud& converted);
+
+ private:
+  const scenegraph::PointCloud& cloud_;
+  ChannelInfo channel_;
+  Room room_;
+  float* values_ = nullptr;
+  std::mutex mutex_;  // guards found_
+  ChannelValues found_;
+};
 
 }  // namespace stillframe::nodes

@@ -168,11 +168,17 @@ struct PartResult {
   glm::dvec3 high{-kInfinity};
 };
 
+/// Where points go.
+struct Room {
+  float* out;  // positions
+  AlongPositions* along;
+};
+
 /// Puts the results of parts behind each other, as if one thread had gone through all. Run by run it is nearly nothing;
 /// positions move where points were dropped before them, and their groups are others then.
 class Joiner {
  public:
-  Joiner(const CloudLayout& layout, float* out) : layout_(layout), out_(out) {
+  Joiner(const CloudLayout& layout, const Room& room) : layout_(layout), room_(room) {
     joined_.cloud.point_step = layout.point_step;
   }
 
@@ -180,9 +186,11 @@ class Joiner {
   void add(const Part& part, const PartResult& result) {
     ConvertedCloud& all = joined_.cloud;
     const ConvertedCloud& cloud = result.cloud;
-    const float* const from = out_ + 3 * part.place(layout_);
-    if (float* const to = out_ + 3 * all.points; to != from && cloud.points > 0) {
-      std::memmove(to, from, 3 * cloud.points * sizeof(float));
+    if (const std::size_t from = part.place(layout_); from != all.points && cloud.points > 0) {
+      std::memmove(room_.out + 3 * all.points, room_.out + 3 * from, 3 * cloud.points * sizeof(float));
+      if (room_.along != nullptr) {
+        room_.along->move(from, cloud.points, all.points);
+      }
     }
     for (const PointRun& run : cloud.runs) {
       if (!all.runs.empty() && all.runs.back().offset + all.runs.back().count * all.point_step == run.offset) {
@@ -202,7 +210,7 @@ class Joiner {
       all.boxes.insert(all.boxes.end(), cloud.boxes.begin(), cloud.boxes.end());
     } else if (cloud.points > 0) {
       const std::size_t first = groups_before * kPassesOfSample;
-      const auto boxes = scenegraph::boxesOf({out_ + 3 * first, 3 * (all.points - first)});
+      const auto boxes = scenegraph::boxesOf({room_.out + 3 * first, 3 * (all.points - first)});
       all.boxes.resize(groups_before);  // without one of a part of a group
       all.boxes.insert(all.boxes.end(), boxes.begin(), boxes.end());
     }
@@ -211,7 +219,7 @@ class Joiner {
 
  private:
   const CloudLayout& layout_;
-  float* out_;
+  Room room_;
   PartResult joined_;
 };
 
@@ -247,7 +255,7 @@ bool asTheyCome(const std::vector<Part>& parts, const CloudLayout& layout, const
 
 /// `convert(row, count, progress)` of all parts; nullopt when their data does not come.
 template <typename Convert>
-std::optional<PartResult> convertParts(const CloudLayout& layout, const scenegraph::Payload& payload, float* out,
+std::optional<PartResult> convertParts(const CloudLayout& layout, const scenegraph::Payload& payload, const Room& room,
                                        const Convert& convert) {
   const std::span<const std::byte> data = payload.bytes;
   const std::vector<Part> parts = partsOf(layout);
@@ -256,7 +264,7 @@ std::optional<PartResult> convertParts(const CloudLayout& layout, const scenegra
     const Part& part = parts[number];
     PartResult& result = results[number];
     result.cloud.point_step = layout.point_step;
-    float* const place = out + 3 * part.place(layout);
+    float* const place = room.out + 3 * part.place(layout);
     Progress progress{result.cloud, data.data(), data.data() + data.size(), place, place + 3 * part.rows * part.count};
     for (std::size_t row = part.first_row; row < part.first_row + part.rows; ++row) {
       // A run may cross a row border only when there is no padding, and then there is just one row.
@@ -268,8 +276,11 @@ std::optional<PartResult> convertParts(const CloudLayout& layout, const scenegra
     if (layout.rows == 1) {
       result.cloud.boxes = scenegraph::boxesOf({place, 3 * result.cloud.points});  // while they are in the cache
     }
+    if (room.along != nullptr) {
+      room.along->add(result.cloud.runs, part.place(layout));
+    }
   };
-  Joiner joiner(layout, out);
+  Joiner joiner(layout, room);
   const bool is_whole = asTheyCome(parts, layout, payload, [&](std::size_t first, std::size_t end) {
     scenegraph::runInBackground(end - first, [&](std::size_t number) { convertPart(first + number); });
     for (; first < end; ++first) {
@@ -296,7 +307,8 @@ void writeRelative(const MixedReader& read, const ConvertedCloud& cloud, const s
 
 }  // namespace
 
-std::expected<ConvertedCloud, CloudError> convertCloud(const PointCloud& cloud, const FloatSink& positions) {
+std::expected<ConvertedCloud, CloudError> convertCloud(const PointCloud& cloud, const FloatSink& positions,
+                                                       AlongPositions* along) {
   const auto checked = checkLayout(cloud);
   if (!checked) {
     return std::unexpected(checked.error());
@@ -313,7 +325,10 @@ std::expected<ConvertedCloud, CloudError> convertCloud(const PointCloud& cloud, 
   }
   const auto& [x, y, z] = layout.xyz;
   const std::array<std::size_t, 3> offsets{x->offset, y->offset, z->offset};
-  float* const out = positions(3 * layout.points());
+  const Room room{positions(3 * layout.points()), along};
+  if (along != nullptr) {
+    along->begin(layout.points());
+  }
   const MixedReader mixed{{valueReader(x->type, cloud.is_bigendian), valueReader(y->type, cloud.is_bigendian),
                            valueReader(z->type, cloud.is_bigendian)},
                           offsets};
@@ -323,18 +338,18 @@ std::expected<ConvertedCloud, CloudError> convertCloud(const PointCloud& cloud, 
   std::optional<PartResult> joined;
   if (is_uniform && x->type == FieldType::Float32 && is_native && offsets[1] == offsets[0] + 4 &&
       offsets[2] == offsets[0] + 8) {
-    joined = convertParts(layout, cloud.data, out, [&](const std::byte* row, std::size_t count, Progress& progress) {
+    joined = convertParts(layout, cloud.data, room, [&](const std::byte* row, std::size_t count, Progress& progress) {
       convertRowFloat3(row, count, step, offsets[0], progress);
     });
   } else if (is_uniform) {
     withFieldType(x->type, cloud.is_bigendian, [&]<typename T, bool kSwapped>() {
       const UniformReader<T, kSwapped> read{offsets};
-      joined = convertParts(layout, cloud.data, out, [&](const std::byte* row, std::size_t count, Progress& progress) {
+      joined = convertParts(layout, cloud.data, room, [&](const std::byte* row, std::size_t count, Progress& progress) {
         convertRow(row, count, step, read, progress);
       });
     });
   } else {
-    joined = convertParts(layout, cloud.data, out, [&](const std::byte* row, std::size_t count, Progress& progress) {
+    joined = convertParts(layout, cloud.data, room, [&](const std::byte* row, std::size_t count, Progress& progress) {
       convertRow(row, count, step, mixed, progress);
     });
   }
@@ -355,8 +370,8 @@ std::expected<ConvertedCloud, CloudError> convertCloud(const PointCloud& cloud, 
     }
   }
   if (converted.origin != glm::dvec3(0.0)) {
-    writeRelative(mixed, converted, cloud.data.bytes.data(), out);
-    converted.boxes = scenegraph::boxesOf({out, 3 * converted.points});
+    writeRelative(mixed, converted, cloud.data.bytes.data(), room.out);
+    converted.boxes = scenegraph::boxesOf({room.out, 3 * converted.points});
   }
   return converted;
 }

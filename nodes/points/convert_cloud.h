@@ -5,6 +5,7 @@
 #include <expected>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "nodes/points/cloud_layout.h"
@@ -44,6 +45,22 @@ struct ConvertedCloud {
 /// written from its start, x y z x y z. Returning storage of the final consumer saves a copy.
 using FloatSink = std::function<float*(std::size_t floats)>;
 
+/// What else is made of each point while its bytes are in the cache: told of the points as their positions are found.
+class AlongPositions {
+ public:
+  AlongPositions() = default;
+  AlongPositions(const AlongPositions&) = delete;
+  AlongPositions& operator=(const AlongPositions&) = delete;
+  virtual ~AlongPositions() = default;
+
+  /// First of all: so many points at most. Not called when there are none.
+  virtual void begin(std::size_t points) = 0;
+  /// The points of `runs` lie from the `place`-th on, for now. Of several parts at a time, each on a thread.
+  virtual void add(std::span<const PointRun> runs, std::size_t place) = 0;
+  /// `count` points that have been added, and lie from `from` on, go to `to`, which is before that. One thread.
+  virtual void move(std::size_t from, std::size_t count, std::size_t to) = 0;
+};
+
 /// Finite points of a cloud as float positions, in one pass over the data. Any thread; no state.
 ///
 /// Every data type (mixed ones too), any stride, both byte orders, row padding, fields in any order or overlapping; of
@@ -53,6 +70,7 @@ using FloatSink = std::function<float*(std::size_t floats)>;
 /// Coordinates beyond kNearby cost a second pass: they are written relative to the box centre in double, so that UTM
 /// coordinates in FLOAT64 keep their millimetres.
 [[nodiscard]] std::expected<ConvertedCloud, CloudError> convertCloud(const scenegraph::PointCloud& cloud,
-                                                                     const FloatSink& positions);
+                                                                     const FloatSink& positions,
+                                                                     AlongPositions* along = nullptr);
 
 }  // namespace stillframe::nodes

@@ -19,7 +19,7 @@ using scenegraph::PosesKind;
 using scenegraph::Status;
 using scenegraph::StatusLevel;
 
-std::expected<ShownPoses, Status> convertPoses(const scenegraph::AnyObject& object, const scenegraph::Entry&) {
+std::expected<ShownPoses, Status> convertPoses(const scenegraph::AnyObject& object, const PosesSettings&) {
   return ShownPoses{std::make_shared<const PoseSet>(object.get<PosesInFrame>()), nullptr};
 }
 

@@ -22,7 +22,7 @@ VoxelGridLayer::VoxelGridLayer(std::string_view topic)
           {.type = scenegraph::ObjectType::VoxelGrid,
            .tag = "voxels",
            .convert = [](const scenegraph::AnyObject& object,
-                         const scenegraph::Entry&) { return VoxelBlock::make(object.get<scenegraph::VoxelGrid>()); },
+                         const VoxelGridSettings&) { return VoxelBlock::make(object.get<scenegraph::VoxelGrid>()); },
            .is_reference = [](const VoxelBlock& block) { return block.voxels() > 0; },
            .prepare = &VoxelGridLayer::prepare},
           voxelGridSettingsTable()) {}

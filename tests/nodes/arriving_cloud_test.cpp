@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <random>
 #include <span>
 #include <thread>
 #include <vector>
 
+#include "nodes/points/channel.h"
 #include "scenegraph/raster/point_blocks.h"
 #include "tests/nodes/cloud_builder.h"
 
@@ -53,6 +55,52 @@ TEST(ConvertCloud, FindsTheBoxesOfGroupsWhereverPointsAreDropped) {
   expectBoxesOfPositions(*convert(xyzCloud(points)));
   points.resize(1023);
   expectBoxesOfPositions(*convert(xyzCloud(points)));
+}
+
+struct XyzValue {
+  float x, y, z;
+  double value;
+};
+
+/// With a value a point, some of them NaN or beyond what floats tell apart.
+PointCloud cloudWithValues(double scale) {
+  std::vector<XyzValue> points;
+  for (const Xyz& p : manyPoints()) {
+    points.push_back(
+        {p.x, p.y, p.z, points.size() % 11 == 5 ? double{kNan} : scale * static_cast<double>(points.size())});
+  }
+  auto fields = kXyzFields;
+  fields.push_back({"value", offsetof(XyzValue, value), FieldType::Float64});
+  return makeCloud<XyzValue>(fields, points);
+}
+
+TEST(ConvertCloud, MakesAChannelAlongThatIsTheOneMadeAfterwards) {
+  for (const double scale : {1.0, 1e6, -1.0}) {
+    const PointCloud cloud = cloudWithValues(scale);
+    const nodes::ChannelInfo info = nodes::listChannels(cloud).at(0);
+    std::vector<float> along_values;
+    nodes::ChannelAlong along(cloud, info, [&](std::size_t points) {
+      along_values.assign(points, -7.0F);
+      return along_values.data();
+    });
+    std::vector<float> positions;
+    const auto room = [&](std::size_t floats) {
+      positions.resize(floats);
+      return positions.data();
+    };
+    const auto converted = nodes::convertCloud(cloud, room, &along);
+    ASSERT_TRUE(converted);
+    ASSERT_LT(converted->points, along_values.size());  // parts have moved
+    const nodes::ChannelValues limits = along.finish(*converted);
+    along_values.resize(converted->points);
+    std::vector<float> after(converted->points);
+    const nodes::ChannelValues expected = nodes::convertChannel(cloud, *converted, info, after);
+    EXPECT_TRUE(along_values == after) << scale;
+    EXPECT_EQ(limits.offset, expected.offset);
+    EXPECT_EQ(limits.low, expected.low);
+    EXPECT_EQ(limits.high, expected.high);
+    EXPECT_EQ(limits.finite, expected.finite);
+  }
 }
 
 TEST(ConvertArrivingCloud, BecomesTheSame) {

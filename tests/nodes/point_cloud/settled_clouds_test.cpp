@@ -59,6 +59,21 @@ TEST(SettledCloud, KeepsWhatItDrawsAndNotTheMessage) {
   EXPECT_LT(settled.points.byteSize(), 1.05 * kPoints * 12);
 }
 
+TEST(SettledCloud, HasTheWantedChannelWithoutReadingAgain) {
+  const auto wantsRing = [](const CloudPoints& cloud) {
+    EXPECT_EQ(cloud.converted().points, 0U);  // asked before they are there
+    return std::optional<std::string>("ring");
+  };
+  auto points = *CloudPoints::make(std::make_shared<const PointCloud>(largeCloud()), {}, wantsRing);
+  EXPECT_GT(points.byteSize(), kPoints * (20 + 12 + 4));
+  points.settle([] { return nullptr; });
+  const nodes::CloudChannel* const ring = points.channel("ring");
+  ASSERT_NE(ring, nullptr);
+  ASSERT_EQ(ring->values->size(), kPoints);
+  EXPECT_EQ((*ring->values)[kPoints - 1], (kPoints - 1) / 2.0F);
+  EXPECT_EQ(ring->limits.high, (kPoints - 1) / 2.0);
+}
+
 TEST(SettledCloud, ReadsTheMessageAgainForAnotherField) {
   const Settled settled;
   const nodes::CloudChannel* const ring = settled.points.channel("ring");

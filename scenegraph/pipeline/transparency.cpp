@@ -6,6 +6,7 @@
 #include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/Scissor>
+#include <osg/Viewport>
 
 #include "generated/stillframe_render/shaders.h"
 #include "scenegraph/geometry.h"
@@ -223,6 +224,8 @@ void Transparency::layOver(osg::RenderInfo& render_info, const Rows& rows) {
   osg::State& state = *render_info.getState();
   osg::StateSet& own = *laying_over_->getStateSet();
   own.setAttributeAndModes(new osg::Scissor{0, rows.first, width_px_, rows.count}, kWins);
+  // Of a go that draws nothing else no camera's state is in force, and OSG's own viewport is 800 x 600.
+  own.setAttributeAndModes(new osg::Viewport(0, 0, width_px_, height_px_), kWins);
   state.pushStateSet(&own);
   state.apply();
   laying_over_->draw(render_info);

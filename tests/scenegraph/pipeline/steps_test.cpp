@@ -54,6 +54,19 @@ TEST_F(PictureSteps, BlendedThingsBeyondTheRoomForThemComeInBandsAsWell) {
   EXPECT_EQ(pipeline_->blendedBands(), bands);
 }
 
+TEST_F(PictureSteps, BlendedThingsComeOverAllOfALargePicture) {
+  const Output large(1000, 800);  // OSG's own viewport has 800 x 600
+  addPanes(2);
+  ASSERT_TRUE(pipeline_->render(large.id(), large.width(), large.height()));
+  const auto at_once = pipeline_->readColor(0, large.height());
+  auto done = pipeline_->step(large.id(), large.width(), large.height(), 0.0);
+  for (int steps = 0; steps < 100 && done == PictureStep::More; ++steps) {
+    done = pipeline_->step(large.id(), large.width(), large.height(), 0.0);
+  }
+  EXPECT_EQ(done, PictureStep::Whole);
+  EXPECT_TRUE(pipeline_->readColor(0, large.height()) == at_once);
+}
+
 TEST_F(PictureSteps, OtherThingsThatAreBlendedMeanwhileEndWithThePicture) {
   addPanes(6);
   const Pixels at_once = atOnce();

@@ -34,6 +34,16 @@ void clearColor(std::uint32_t fbo, const std::array<float, 4>& rgba) {
   glClearNamedFramebufferfv(fbo, GL_COLOR, 0, rgba.data());
 }
 
+void copyColors(std::uint32_t from_fbo, std::uint32_t to_fbo, int width_px, int height_px) {
+  const bool is_clipped = isEnabled(GL_SCISSOR_TEST);
+  glDisable(GL_SCISSOR_TEST);
+  glBlitNamedFramebuffer(from_fbo, to_fbo, 0, 0, width_px, height_px, 0, 0, width_px, height_px, GL_COLOR_BUFFER_BIT,
+                         GL_NEAREST);
+  if (is_clipped) {
+    glEnable(GL_SCISSOR_TEST);
+  }
+}
+
 void finish() { glFinish(); }
 
 bool isEnabled(std::uint32_t capability) { return glIsEnabled(capability) == GL_TRUE; }

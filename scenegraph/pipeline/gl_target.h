@@ -14,6 +14,8 @@ void selectTextureUnits(std::uint32_t unit, std::uint32_t client_unit);
 [[nodiscard]] bool isEnabled(std::uint32_t capability);
 /// All of a framebuffer's colours.
 void clearColor(std::uint32_t fbo, const std::array<float, 4>& rgba);
+/// All of a framebuffer's colours to another one of that size.
+void copyColors(std::uint32_t from_fbo, std::uint32_t to_fbo, int width_px, int height_px);
 /// Waits until all that was asked for is drawn.
 void finish();
 /// Status of a framebuffer with these two textures; 0 when it can be drawn into.

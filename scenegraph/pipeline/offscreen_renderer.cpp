@@ -3,8 +3,10 @@
 #include <GL/gl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <ctime>
 #include <semaphore>
+#include <thread>
 #include <utility>
 
 #include "scenegraph/stopwatch.h"
@@ -13,6 +15,8 @@ namespace stillframe::scenegraph {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kBusyPause(1);  // as in a window
 
 double cpuMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -94,17 +98,20 @@ std::expected<void, Status> OffscreenRenderer::show(osg::Group& root, const Came
   while (done && *done != PictureStep::Whole) {
     if (*done == PictureStep::Waits) {
       woken->acquire();
+    } else if (*done == PictureStep::Busy) {
+      std::this_thread::sleep_for(kBusyPause);
     }
     const auto step_start = Clock::now();
     done = pipeline_->step(output_->id(), options.width, options.height, ViewPipeline::kStepMs);
     statistics_.step_ms = std::max(statistics_.step_ms, millisecondsSince(step_start));
   }
-  pipeline_->setWake(nullptr);
   if (!done) {
+    pipeline_->setWake(nullptr);
     return std::unexpected(done.error());
   }
   const auto present_start = Clock::now();
   pipeline_->present(output_->id());
+  pipeline_->setWake(nullptr);
   noteFrame(start, cpu_start_ms);
   statistics_.step_ms = std::max(statistics_.step_ms, millisecondsSince(present_start));
   statistics_.read_back_ms = 0.0;

@@ -353,6 +353,8 @@ void ViewPipeline::releaseGl() {
     impl_->id_pass.reset();
   }
   impl_->dropPoints();
+  impl_->stepped.reset();
+  impl_->aside.reset();
   impl_->first_uses->clear();
   impl_->content->releaseGLObjects(impl_->window->getState());
   impl_->dropStages();

@@ -28,6 +28,7 @@ enum class PictureStep : std::uint8_t {
   Whole,  ///< all is drawn: present() shows it
   More,   ///< there is more to be drawn
   Waits,  ///< the same, once somebody else has done his part (ViewPipeline::setWake)
+  Busy,   ///< the same, once OpenGL has done its part, which nobody tells: some milliseconds
 };
 
 /// Draws a scene graph into targets of its own and, when asked, on to a framebuffer of somebody else.
@@ -64,9 +65,9 @@ class ViewPipeline {
   /// Of the last render; nullopt: OpenGL drew the points, all of them.
   [[nodiscard]] const std::optional<PointProgress>& pointProgress() const noexcept;
 
-  /// From now on, points that are drawn on the CPU are drawn on a thread of their own while a picture is drawn in
-  /// steps: step() says Waits, and `wake` is called, from any thread, when it may go on. nullptr, as at first: step()
-  /// does it.
+  /// From now on, step() waits for nobody. Points that are drawn on the CPU are drawn on a thread of their own: step()
+  /// says Waits, and `wake` is called, from any thread, when it may go on. Where OpenGL is software its threads draw a
+  /// pass, and step() says Busy while they do. nullptr, as at first: step() does it, and waits.
   void setWake(std::function<void()> wake);
 
   /// Draws one frame and presents it in `output_fbo`, over the whole of it. Sizes in device pixels; 0 draws nothing.

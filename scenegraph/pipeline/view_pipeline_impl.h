@@ -1,20 +1,32 @@
 #pragma once
 
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <osgViewer/GraphicsWindow>
 #include <osgViewer/Viewer>
 
 #include "scenegraph/pipeline/first_uses.h"
+#include "scenegraph/pipeline/gl_fence.h"
+#include "scenegraph/pipeline/gl_output.h"
 #include "scenegraph/pipeline/gl_target.h"
 #include "scenegraph/pipeline/id_pass.h"
 #include "scenegraph/pipeline/point_collection.h"
 #include "scenegraph/pipeline/stages.h"
 #include "scenegraph/pipeline/view_pipeline.h"
+#include "scenegraph/thread_priority.h"
 
 namespace stillframe::scenegraph {
+
+/// A stage that OpenGL has been asked for.
+struct StageUnderWay {
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
+  Precedence precedence{Precedence::Of::Window};
+  std::optional<gl::Fence> fence;  // none: there is nothing to wait for
+};
 
 /// A picture that is being drawn in steps.
 struct SteppedPicture {
@@ -24,6 +36,7 @@ struct SteppedPicture {
   bool has_points = false;     // those that are not drawn with the scene
   bool is_begun = false;       // the scene's targets are cleared
   double rest_ms = 0.0;        // that all but the points has taken
+  std::unique_ptr<StageUnderWay> under_way;
 };
 
 /// What a PointStage is to draw.
@@ -52,7 +65,8 @@ struct ViewPipeline::Impl {
   PointWay point_way = PointWay::Auto;
   PointLimits point_limits;
   std::function<void()> wake;
-  std::optional<double> rest_ms;  // of a frame beside its points, once measured where there is a budget for both
+  std::unique_ptr<gl::Output> aside;  // what is presented, until it is whole, where step() waits for nobody
+  std::optional<double> rest_ms;      // of a frame beside its points, once measured where there is a budget for both
   bool is_software = false;
   osg::ref_ptr<osg::Group> content;         // the root, and the picture of the points
   std::unique_ptr<PointStage> point_stage;  // none before there are points for it
@@ -77,6 +91,12 @@ struct ViewPipeline::Impl {
   void notePoints(std::optional<PointProgress> progress);
   void drawPoints(std::optional<PointWork> work);
   PictureStep stepPoints(double budget_ms);
+  [[nodiscard]] bool drawsAside() const { return is_software && wake; }
+  [[nodiscard]] bool isDrawn() const { return stepped->stage + (drawsAside() ? 0 : 1) >= stages->count(); }
+  void beginStage(double budget_ms);
+  [[nodiscard]] bool isStageDrawn(double wait_ms) const;
+  [[nodiscard]] bool endStage();
+  void startAside(std::uint32_t output_fbo);
   void dropPoints();
   void drawFrame();
   void noteRest(double took_ms);

@@ -12,7 +12,8 @@
 namespace stillframe::scenegraph {
 namespace {
 
-constexpr double kMuch = 0.5;  // of the budget: points that take as much have a step of their own
+constexpr double kMuch = 0.5;         // of the budget: points that take as much have a step of their own
+constexpr double kShortWaitMs = 0.5;  // for OpenGL: another event would come no sooner
 
 }  // namespace
 
@@ -38,9 +39,17 @@ std::expected<PictureStep, Status> ViewPipeline::step(std::uint32_t output_fbo, 
     impl.projection_matrix = projection(impl.view, static_cast<double>(width_px) / height_px);
     stages.setView(toOsg(impl.view.eye_from_fixed), impl.projection_matrix, impl.background);
   }
-  impl.startPicture(output_fbo);
   SteppedPicture& at = *impl.stepped;
-  for (bool is_first = true; at.stage + 1 < stages.count(); is_first = false) {
+  if (at.under_way != nullptr) {
+    if (!impl.isStageDrawn(0.0)) {
+      return PictureStep::Busy;
+    }
+    if (!impl.endStage()) {
+      return PictureStep::More;
+    }
+  }
+  impl.startAside(output_fbo);
+  for (bool is_first = true; !impl.isDrawn(); is_first = false) {
     const double left_ms = budget_ms - millisecondsSince(start);
     const bool is_new_pass = impl.is_software && at.stage > 0 && at.stage >= impl.drawn_stages;  // its shaders are made
     if (!is_first && (left_ms <= 0.0 || is_new_pass)) {
@@ -56,14 +65,7 @@ std::expected<PictureStep, Status> ViewPipeline::step(std::uint32_t output_fbo, 
       }
       continue;
     }
-    const auto begun = std::chrono::steady_clock::now();
-    stages.showOnly(at.stage, !at.is_begun);
-    stages.steps().setBudget(left_ms, impl.is_software);
-    impl.viewer->frame();
-    if (impl.is_software) {
-      gl::finish();
-    }
-    at.rest_ms += millisecondsSince(begun);
+    impl.beginStage(left_ms);
     if (!at.is_begun) {
       at.is_begun = true;
       if (const auto checked = impl.checkTargets(); !checked && *remade) {
@@ -71,17 +73,63 @@ std::expected<PictureStep, Status> ViewPipeline::step(std::uint32_t output_fbo, 
         return std::unexpected(checked.error());
       }
     }
-    if (at.stage > 0 || stages.steps().isDone()) {
-      impl.drawn_stages = std::max(impl.drawn_stages, ++at.stage);
+    if (!impl.isStageDrawn(kShortWaitMs)) {
+      return PictureStep::Busy;
     }
-    if (at.stage == 0 && stages.steps().metNewProgram()) {
+    if (!impl.endStage()) {
       return PictureStep::More;
-    }
-    if (at.sub_frame + 1 < stages.subFrames() && at.stage > stages.lastOfSubFrame()) {
-      at = {.sub_frame = at.sub_frame + 1};
     }
   }
   return PictureStep::Whole;
+}
+
+/// Where step() waits for nobody the output gets what is whole.
+void ViewPipeline::Impl::startAside(std::uint32_t output_fbo) {
+  if (!drawsAside()) {
+    aside.reset();
+  } else if (aside == nullptr || aside->width() != width_px || aside->height() != height_px) {
+    aside = std::make_unique<gl::Output>(width_px, height_px);
+  }
+  startPicture(aside != nullptr ? aside->id() : output_fbo);
+}
+
+/// Asks OpenGL for the next stage, or a part of the scene.
+void ViewPipeline::Impl::beginStage(double budget_ms) {
+  stepped->under_way = std::make_unique<StageUnderWay>();
+  stages->showOnly(stepped->stage, !stepped->is_begun);
+  stages->steps().setBudget(budget_ms, is_software);
+  if (aside != nullptr) {
+    gl::bindFramebuffer(aside->id());  // OSG takes what is bound for the default
+  }
+  viewer->frame();
+  if (drawsAside()) {
+    stepped->under_way->fence.emplace();
+  } else if (is_software) {
+    gl::finish();
+  }
+}
+
+bool ViewPipeline::Impl::isStageDrawn(double wait_ms) const {
+  const auto& fence = stepped->under_way->fence;
+  return !fence || fence->isReached(wait_ms);
+}
+
+/// OpenGL has drawn it. False: what is next goes into another step.
+bool ViewPipeline::Impl::endStage() {
+  SteppedPicture& at = *stepped;
+  at.rest_ms += millisecondsSince(at.under_way->begun);
+  at.under_way.reset();
+  if (at.stage > 0 || stages->steps().isDone()) {
+    drawn_stages = std::max(drawn_stages, ++at.stage);
+  }
+  if (at.stage == 0 && stages->steps().metNewProgram()) {
+    return false;
+  }
+  if (const int next = at.sub_frame + 1; next < stages->subFrames() && at.stage > stages->lastOfSubFrame()) {
+    at = SteppedPicture{};
+    at.sub_frame = next;
+  }
+  return true;
 }
 
 /// Of the present sub-frame; Whole when that has all of its points: those of a picture that is not averaged become more
@@ -111,16 +159,21 @@ PictureStep ViewPipeline::Impl::stepPoints(double budget_ms) {
 
 void ViewPipeline::present(std::uint32_t output_fbo) {
   Impl& impl = *impl_;
-  if (!impl.stages || !impl.stepped || impl.stepped->stage + 1 < impl.stages->count()) {
+  const bool is_there = impl.stages && impl.stepped && impl.stepped->under_way == nullptr && impl.isDrawn();
+  if (!is_there) {
     return;
   }
   const Precedence frame(Precedence::Of::Window);
   const auto start = std::chrono::steady_clock::now();
   const double rest_ms = impl.stepped->rest_ms;
   impl.stepped.reset();
-  impl.stages->showOnly(impl.stages->count() - 1, false);
-  impl.startPicture(output_fbo);
-  impl.viewer->frame();
+  if (impl.drawsAside()) {
+    gl::copyColors(impl.aside->id(), output_fbo, impl.width_px, impl.height_px);
+  } else {
+    impl.stages->showOnly(impl.stages->count() - 1, false);
+    impl.startPicture(output_fbo);
+    impl.viewer->frame();
+  }
   if (impl.is_software) {
     gl::finish();  // here, where the frame has precedence
   }

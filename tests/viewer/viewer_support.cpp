@@ -1,8 +1,11 @@
 #include "tests/viewer/viewer_support.h"
 
-#include <QCoreApplication>
+#include <QApplication>
 #include <QTest>
+#include <algorithm>
 #include <cstdlib>
+
+#include "viewer/widget/scene_widget.h"
 
 namespace stillframe::test {
 
@@ -11,10 +14,30 @@ using scenegraph::ObjectType;
 
 bool waitFor(const std::function<bool()>& condition) { return QTest::qWaitFor(condition, 10'000); }
 
-void settle() {
+namespace {
+
+void runEvents() {
   for (int i = 0; i < 20; ++i) {
     QCoreApplication::sendPostedEvents();
     QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
+  }
+}
+
+bool hasFrameUnderWay() {
+  return std::ranges::any_of(QApplication::allWidgets(), [](const QWidget* widget) {
+    const auto* const view = qobject_cast<const viewer::SceneWidget*>(widget);
+    return view != nullptr && view->isVisible() && !view->isUpToDate();
+  });
+}
+
+}  // namespace
+
+void settle() {
+  constexpr int kLongestMs = 1000;  // a view whose window is covered draws nothing
+  runEvents();
+  if (hasFrameUnderWay()) {
+    static_cast<void>(QTest::qWaitFor([] { return !hasFrameUnderWay(); }, kLongestMs));
+    runEvents();
   }
 }
 

@@ -11,7 +11,7 @@ struct FrameSteps {
   enum class At : std::uint8_t {
     Rest,      ///< no frame is being drawn
     UnderWay,  ///< the next step is on its way
-    Waiting,   ///< it comes when others have done their part
+    Waiting,   ///< it comes when others, or OpenGL, have done their part
     Ready,     ///< all is drawn but what puts it into the widget
   };
   [[nodiscard]] bool isUpToDate() const noexcept { return at == At::Rest && !is_wanted && !has_put_tick; }
@@ -22,6 +22,7 @@ struct FrameSteps {
   bool is_blank = true;       ///< the framebuffer is new: nothing is in it
   bool is_whole = false;      ///< somebody waits for the next frame
   bool has_put_tick = false;  ///< a tick was put off: the scene stands still meanwhile
+  bool is_polling = false;    ///< OpenGL will be asked again
   bool is_moving = false;     ///< the camera is on its way in the frame that is drawn: its end is another picture
   QSize shown_px;             ///< of the whole frame that is shown
 };

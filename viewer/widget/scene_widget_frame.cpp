@@ -1,6 +1,8 @@
 // The frames of SceneWidget: drawn in steps, an event each.
 #include <QScopedValueRollback>
+#include <QTimer>
 #include <QWindow>
+#include <chrono>
 #include <utility>
 
 #include "scenegraph/pipeline/gl_target.h"
@@ -18,6 +20,8 @@ using At = FrameSteps::At;
 // For the points of a frame, so that the camera follows the hand with any cloud.
 constexpr double kSoftwareBudgetMs = 33.0;
 constexpr double kHardwareBudgetMs = 12.0;
+// Of which OpenGL, being software, is asked whether it has drawn a pass.
+constexpr std::chrono::milliseconds kBusyPause(1);
 
 QString problemText(const scenegraph::Status& status) {
   return SceneWidget::tr("The 3D view cannot be drawn.\n\n%1").arg(QString::fromStdString(status.message));
@@ -132,10 +136,16 @@ void SceneWidget::continueFrame() {
     steps_.at = At::Rest;
   } else if (*drawn == scenegraph::PictureStep::Whole) {
     steps_.at = At::Ready;
+  } else if (*drawn == scenegraph::PictureStep::More) {
+    steps_.at = At::UnderWay;
+    turn_.ask();
   } else {
-    steps_.at = *drawn == scenegraph::PictureStep::Waits ? At::Waiting : At::UnderWay;
-    if (steps_.at == At::UnderWay) {
-      turn_.ask();
+    steps_.at = At::Waiting;
+    if (*drawn == scenegraph::PictureStep::Busy && !std::exchange(steps_.is_polling, true)) {
+      QTimer::singleShot(kBusyPause, Qt::PreciseTimer, this, [this] {
+        steps_.is_polling = false;
+        turn_.ask();
+      });
     }
   }
 }

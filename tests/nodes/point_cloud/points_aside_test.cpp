@@ -2,8 +2,10 @@
 // what they do meanwhile waits for them.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
 #include <semaphore>
+#include <thread>
 
 #include "scenegraph/pipeline/gl_output.h"
 #include "scenegraph/pipeline/offscreen_context.h"
@@ -67,10 +69,12 @@ class PointsAside : public ScenePictureTest {
   }
   /// To the end, or to where it waits; what is new to OpenGL has steps of its own.
   PictureStep step(int width_px = kWidth) {
-    for (int steps = 0; steps < 100; ++steps) {
+    for (int steps = 0; steps < 10'000; ++steps) {
       const auto done = pipeline_->step(output_->id(), width_px, kHeight, 1e6);
       EXPECT_TRUE(done) << done.error().message;
-      if (done != PictureStep::More) {
+      if (done == PictureStep::Busy) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      } else if (done != PictureStep::More) {
         return done.value_or(PictureStep::More);
       }
     }

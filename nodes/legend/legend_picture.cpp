@@ -67,9 +67,12 @@ class Card {
     bar(legend, top + kBarTop);
     const double numbers = top + kNumbersTop;
     const double middle = legend.low / 2 + legend.high / 2;
-    text(legendNumber(legend.low, legend.low, legend.high), kPadding, numbers, kText, Align::Left);
-    text(legendNumber(legend.high, legend.low, legend.high), kWidth - kPadding, numbers, kText, Align::Right);
-    text(legendNumber(middle, legend.low, legend.high), kWidth / 2, numbers, kDim, Align::Centre);
+    const bool is_one = legend.low == legend.high;  // which has the colour in the middle
+    text(legendNumber(middle, legend.low, legend.high), kWidth / 2, numbers, is_one ? kText : kDim, Align::Centre);
+    if (!is_one) {
+      text(legendNumber(legend.low, legend.low, legend.high), kPadding, numbers, kText, Align::Left);
+      text(legendNumber(legend.high, legend.low, legend.high), kWidth - kPadding, numbers, kText, Align::Right);
+    }
   }
   void note(const std::string& words, double top) { text(words, kPadding, top, kDim, Align::Left); }
 

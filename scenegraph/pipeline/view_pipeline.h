@@ -78,7 +78,7 @@ class ViewPipeline {
   /// drawable or pass more. View, points and background are those of the first step; another size, chain or render()
   /// begin anew. The scene must stay as it is meanwhile.
   std::expected<PictureStep, Status> step(std::uint32_t output_fbo, int width_px, int height_px, double budget_ms);
-  static constexpr double kStepMs = 20.0;  ///< the budget in a window: other events wait no longer
+  static constexpr double kStepMs = 12.0;  ///< the budget in a window: other events wait no longer
   /// Presents what step() has drawn, over the whole of `output_fbo`. Does nothing before that.
   void present(std::uint32_t output_fbo);
   /// The same without present, for readColor(): what a picture file holds is not rounded to bytes on the way.

@@ -178,6 +178,24 @@ TEST_F(WidgetCameraTest, SavedViewsComeBackByNameAndByKey) {
   EXPECT_EQ(widget_.savedViews().size(), 2U) << "replaced";
 }
 
+TEST_F(WidgetCameraTest, AFrameWithoutAPlaceIsToldWhenItIsToBeLookedAt) {
+  goTo(9_s);
+  QStringList refused;
+  QObject::connect(&widget_, &viewer::SceneWidget::refused, [&](const QString& why) { refused << why; });
+  const auto before = widget_.camera().sight().focal_point;
+  widget_.frameOrigin("no such frame");
+  EXPECT_EQ(refused, QStringList{"no such frame has no place in map at this time"});
+  widget_.setDisplayFrame("arm");
+  refused.clear();
+  widget_.recenter();
+  EXPECT_EQ(refused, QStringList{"arm has no place in map at this time"});
+  EXPECT_EQ(widget_.camera().sight().focal_point, before);
+  widget_.setDisplayFrame("lidar");
+  refused.clear();
+  widget_.recenter();
+  EXPECT_TRUE(refused.isEmpty());
+}
+
 TEST_F(WidgetCameraTest, SmoothMovesEndExactlyWhereTheOthersDo) {
   goTo(9_s);
   const auto start = widget_.camera().state();

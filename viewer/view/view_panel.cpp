@@ -129,6 +129,7 @@ ViewPanel::ViewPanel(QWidget* parent)
   connect(picker_, &FramePicker::picked, this, &ViewPanel::pickFixedFrame);
   connect(layers_, &LayerPanel::changed, view_, [this] { view_->requestTick(); });
   connect(layers_, &LayerPanel::refused, this, &ViewPanel::refused);
+  connect(view_, &SceneWidget::refused, this, &ViewPanel::refused);
   connect(view_, &SceneWidget::sceneUpdated, this, [this] {
     layers_->refresh();
     legend_->refresh(view_->scene());

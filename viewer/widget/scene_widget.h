@@ -108,8 +108,7 @@ class SceneWidget : public QOpenGLWidget {
   [[nodiscard]] std::uint64_t framesDrawn() const noexcept { return frames_drawn_; }
   [[nodiscard]] bool isUpToDate() const noexcept { return steps_.isUpToDate(); }  ///< no frame is on its way
   void update();  ///< a frame soon, drawn in steps from the event loop
-  /// What there is to see at this moment, drawn whole; blocks.
-  [[nodiscard]] QImage grabFramebuffer();
+  [[nodiscard]] QImage grabFramebuffer();  ///< what there is to see at this moment, drawn whole; blocks
   [[nodiscard]] std::size_t glMessages() const noexcept { return gl_messages_ + debug_log_.count(); }
   [[nodiscard]] QString problem() const;  ///< what is shown instead of the scene, "" when the scene is
 
@@ -121,11 +120,11 @@ class SceneWidget : public QOpenGLWidget {
   void frameAll();
   /// The selection in sight, or all data when nothing is selected or it has no place now.
   void frameSelection();
-  /// The followed frame to the middle of the picture, upright, from the same side and as far away.
+  /// The display frame to the middle of the picture, upright, from the same side and as far away. refused(): no place.
   void recenter();
   /// From that side of what is looked at, e.g. (0, 0, 1): from above.
   void lookFrom(const glm::dvec3& side);
-  /// The origin of `frame` becomes the focal point. Does nothing when it has no place at this time.
+  /// The origin of `frame` becomes the focal point. refused() when it has no place at this time.
   void frameOrigin(const std::string& frame);
 
  Q_SIGNALS:
@@ -137,6 +136,7 @@ class SceneWidget : public QOpenGLWidget {
   void drawTimesMeasured(const std::vector<std::optional<double>>& times);
   /// Name of the frame whose origin is near the cursor, "" when none is.
   void frameHovered(const QString& frame);
+  void refused(const QString& message);
 
  protected:
   void initializeGL() override;

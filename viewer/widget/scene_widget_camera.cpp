@@ -21,6 +21,11 @@ bool hasDataInSight(const scenegraph::Scene& scene) {
   });
 }
 
+QString noPlaceText(const std::string& frame, const scenegraph::Scene& scene) {
+  return SceneWidget::tr("%1 has no place in %2 at this time")
+      .arg(QString::fromStdString(frame), QString::fromStdString(scene.fixedFrame()));
+}
+
 }  // namespace
 
 scenegraph::Follow::Pose SceneWidget::displayPose() const {
@@ -159,6 +164,8 @@ void SceneWidget::recenter() {
     camera_.beginMove(now(), has_smooth_moves_);
     camera_.recenter(pose);
     onCameraMoved();
+  } else if (camera_.displayFrame()) {
+    Q_EMIT refused(noPlaceText(*camera_.displayFrame(), *scene_));
   }
 }
 
@@ -177,6 +184,8 @@ void SceneWidget::frameOrigin(const std::string& frame) {
     camera_.beginMove(now(), has_smooth_moves_);
     camera_.lookAtPoint(fixed_from_frame->translation);
     onCameraMoved();
+  } else {
+    Q_EMIT refused(noPlaceText(frame, *scene_));
   }
 }
 

@@ -137,6 +137,27 @@ TEST(LegendPicture, StandsWhateverTheRangeIs) {
   }
 }
 
+TEST(LegendPicture, WritesTheNumberOfARangeWithoutWidthOnce) {
+  LegendEntry entry = blueToRed();
+  const auto inkedFrom = [&entry](int left, int right) {
+    const LegendPicture picture = drawLegends(std::vector{entry}, 1.0, 1000);
+    const int bar = barRow(picture, 8, 207);
+    int count = 0;
+    for (int y = std::max(bar + 12, 0); bar >= 0 && y < picture.height; ++y) {
+      for (int x = left; x < right; ++x) {
+        count += pixel(picture, x, y)[1] > 120 ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  ASSERT_GT(inkedFrom(0, 70), 0);
+  ASSERT_GT(inkedFrom(146, 216), 0);
+  entry.legend.low = entry.legend.high = 0.25;
+  EXPECT_EQ(inkedFrom(0, 70), 0);
+  EXPECT_EQ(inkedFrom(146, 216), 0);
+  EXPECT_GT(inkedFrom(70, 146), 0);
+}
+
 TEST(LegendNumber, TellsValuesOfTheRangeApart) {
   EXPECT_EQ(legendNumber(0.5, 0.0, 1.0), "0.5");
   EXPECT_EQ(legendNumber(500'000.25, 500'000.0, 500'000.5), "500000.25");

@@ -11,6 +11,7 @@
 #include <QToolButton>
 #include <QUrl>
 #include <cmath>
+#include <set>
 
 #include "tests/viewer/open_window.h"
 #include "tests/viewer/viewer_support.h"
@@ -67,6 +68,23 @@ TEST_F(InspectorWindowTest, StartsAtTheTimeAndFrameAskedFor) {
     EXPECT_EQ(view(i).scene()->fixedFrame(), "base_link");
     EXPECT_EQ(view(i).scene()->time(), TimePoint{2_s + 500_ms});
   }
+}
+
+TEST_F(InspectorWindowTest, FourViewsAreTwoByTwoInAWindowOfTheUsualSize) {
+  open({.files = {"robot.mcap"}, .views = 4});
+  ASSERT_EQ(window_->views().size(), 4U);
+  EXPECT_EQ(window_->size(), QSize(1280, 800));
+  std::set<int> lefts;
+  std::set<int> tops;
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(view(i).width(), view(0).width(), 2);
+    EXPECT_NEAR(view(i).height(), view(0).height(), 2);
+    const QPoint corner = view(i).mapTo(window_.get(), QPoint(0, 0));
+    lefts.insert(corner.x());
+    tops.insert(corner.y());
+  }
+  EXPECT_EQ(lefts.size(), 2U);
+  EXPECT_EQ(tops.size(), 2U);
 }
 
 TEST_F(InspectorWindowTest, OnlyTheNamedLayersAreThere) {

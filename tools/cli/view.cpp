@@ -190,7 +190,7 @@ Command addViewCommand(CLI::App& app) {
   app.add_option("FILE", options->files, "Recordings: the parts of a split one; none: a window that waits for a drop");
   addTransformOptions(app, options->recording);
   addRobotOptions(app, options->recording);
-  CLI::Option* const views = app.add_option("--views", options->views, "Views side by side")
+  CLI::Option* const views = app.add_option("--views", options->views, "Views, in rows and columns")
                                  ->check(CLI::Range(1, kMostViews))
                                  ->capture_default_str();
   app.add_option(

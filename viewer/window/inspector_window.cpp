@@ -11,6 +11,7 @@
 #include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 #include "viewer/frames/frame_tree.h"
@@ -112,9 +113,7 @@ InspectorWindow::InspectorWindow(RecordingOpener opener, InspectorOptions option
   if (options_.layout) {
     restore(*options_.layout);
   } else {
-    for (int i = 0; i < std::max(1, options_.views); ++i) {
-      addView();
-    }
+    addViews(std::max(1, options_.views));
   }
   makeReachable(*this);
   activeView().view().setFocus();  // its keys work from the first moment
@@ -172,6 +171,18 @@ void InspectorWindow::connectView(ViewPanel& panel) {
           [this](const QString& frame) { statusBar()->showMessage(frame); });
   inspect_->watch(panel.view());
   fillView(panel);
+}
+
+/// Columns as near to as many as rows as can be, so that a picture is neither narrow nor flat.
+void InspectorWindow::addViews(int count) {
+  const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
+  for (int i = 0; i < count; ++i) {
+    if (i < columns) {
+      addView();
+    } else {
+      addView(views()[static_cast<std::size_t>(i - columns)], Qt::Vertical);
+    }
+  }
 }
 
 ViewPanel& InspectorWindow::addView(ViewPanel* like, Qt::Orientation orientation) {

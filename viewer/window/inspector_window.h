@@ -83,6 +83,7 @@ class InspectorWindow : public QMainWindow {
   void onLoaded();
   void onFailed(const scenegraph::Status& status);
   void takeRange();
+  void addViews(int count);
   void fillView(ViewPanel& panel);
   void connectView(ViewPanel& panel);
   void connectFrames();

@@ -107,7 +107,7 @@ class SceneWidget : public QOpenGLWidget {
   void measureDrawTimes();
   [[nodiscard]] std::uint64_t framesDrawn() const noexcept { return frames_drawn_; }
   [[nodiscard]] bool isUpToDate() const noexcept { return steps_.isUpToDate(); }  ///< no frame is on its way
-  void update();  ///< a frame soon, drawn in steps from the event loop
+  void update();                           ///< a frame soon, drawn in steps from the event loop
   [[nodiscard]] QImage grabFramebuffer();  ///< what there is to see at this moment, drawn whole; blocks
   [[nodiscard]] std::size_t glMessages() const noexcept { return gl_messages_ + debug_log_.count(); }
   [[nodiscard]] QString problem() const;  ///< what is shown instead of the scene, "" when the scene is

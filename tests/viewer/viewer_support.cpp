@@ -54,7 +54,8 @@ std::shared_ptr<scenegraph::Dataset> makeRobotDataset() {
     CloudBuilder cloud("lidar");
     cloud.xyz();
     for (int i = 0; i < 41 * 41; ++i) {
-      cloud.point({i % 41 * 0.05 - 1.0, i / 41 * 0.05 - 1.0, 0.0});
+      const int row = i / 41;
+      cloud.point({i % 41 * 0.05 - 1.0, row * 0.05 - 1.0, 0.0});
     }
     builder.at(second * 1_s, cloud.stamp(second * 1_s).build());
   }

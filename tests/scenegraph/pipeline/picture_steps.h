@@ -98,8 +98,9 @@ class PictureSteps : public ::testing::Test {
 inline osg::ref_ptr<osg::Geode> makeSheet(unsigned triangles, bool has_indices, const osg::Vec4& color) {
   std::vector<osg::Vec3> corners;
   for (unsigned i = 0; i < triangles; ++i) {
+    const unsigned row = i / 300;
     const float x = static_cast<float>(i % 300) / 150.0F - 1.0F;
-    const float y = static_cast<float>(i / 300) / 150.0F - 1.0F;
+    const float y = static_cast<float>(row) / 150.0F - 1.0F;
     const float z = 0.3F * std::sin(9.0F * x) * std::cos(7.0F * y);
     corners.insert(corners.end(), {{x, y, z}, {x + 0.02F, y, z}, {x, y + 0.02F, -z}});
   }

@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <osgText/Glyph>
-#include <osgText/String>
 
 #include "nodes/text/find_font.h"
+#include "nodes/text/visual_order.h"
 
 namespace stillframe::nodes {
 namespace {
 
 constexpr std::string_view kDots = "...";
-
-osgText::String codesOf(std::string_view utf8) {
-  return osgText::String(std::string(utf8), osgText::String::ENCODING_UTF8);
-}
 
 unsigned rowsOf(double height) { return static_cast<unsigned>(std::clamp(std::lround(height), 4L, 256L)); }
 
@@ -85,7 +81,7 @@ osgText::Glyph* GlyphCanvas::glyph(unsigned code, double height) {
 
 double GlyphCanvas::textWidth(std::string_view utf8, double height) {
   double width = 0.0;
-  for (const unsigned code : codesOf(utf8)) {
+  for (const unsigned code : visualOrder(utf8)) {
     if (const osgText::Glyph* const shape = glyph(code, height)) {
       width += static_cast<double>(shape->getHorizontalAdvance()) * rowsOf(height);
     }
@@ -110,7 +106,7 @@ std::string GlyphCanvas::shortened(std::string_view utf8, double height, double 
 void GlyphCanvas::drawText(std::string_view utf8, double x, double baseline, double height, const PixelColor& color) {
   const auto rows = static_cast<double>(rowsOf(height));
   double pen = x;
-  for (const unsigned code : codesOf(utf8)) {
+  for (const unsigned code : visualOrder(utf8)) {
     const osgText::Glyph* const shape = glyph(code, height);
     if (shape == nullptr) {
       continue;

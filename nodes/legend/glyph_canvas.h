@@ -20,8 +20,7 @@ struct PixelColor {
 
 /// A small picture that rectangles and lines of text are drawn into, without OpenGL and without Qt: what a window and a
 /// picture file show alike. Colours are mixed as they are encoded, as other user interfaces do. Each character is drawn
-/// by a font that has it, one after the other from left to right: letters are not joined as Arabic joins them, which
-/// takes a shaper that OSG does not have. GUI thread.
+/// by a font that has it, one after the other in visualOrder(). GUI thread.
 class GlyphCanvas {
  public:
   /// Transparent at first.

@@ -2,7 +2,7 @@
 
 #include <osg/ref_ptr>
 #include <osgText/Font>
-#include <string_view>
+#include <osgText/String>
 
 namespace stillframe::nodes {
 
@@ -17,6 +17,6 @@ namespace stillframe::nodes {
 [[nodiscard]] bool isEastAsian(unsigned code) noexcept;
 
 /// Whether a text holds such characters.
-[[nodiscard]] bool isEastAsian(std::string_view utf8) noexcept;
+[[nodiscard]] bool isEastAsian(const osgText::String& text) noexcept;
 
 }  // namespace stillframe::nodes

@@ -6,6 +6,7 @@
 
 #include "generated/stillframe_nodes/shaders.h"
 #include "nodes/text/find_font.h"
+#include "nodes/text/visual_order.h"
 #include "scenegraph/geometry.h"
 
 namespace stillframe::nodes {
@@ -42,8 +43,8 @@ void TextParts::placeAscii(osgText::Font& font, unsigned texels) {
   }
 }
 
-osg::ref_ptr<osgText::Font> TextParts::fontFor(const std::string& utf8) {
-  if (isEastAsian(utf8)) {
+osg::ref_ptr<osgText::Font> TextParts::fontFor(const osgText::String& characters) {
+  if (isEastAsian(characters)) {
     if (!has_looked_east_) {
       east_asian_ = findEastAsianFont();
       has_looked_east_ = true;
@@ -57,7 +58,8 @@ osg::ref_ptr<osgText::Font> TextParts::fontFor(const std::string& utf8) {
 
 osg::ref_ptr<osgText::Text> TextParts::makeText(const std::string& utf8, unsigned texels) {
   look();
-  const osg::ref_ptr<osgText::Font> font = fontFor(utf8);
+  const osgText::String characters = visualOrder(utf8);
+  const osg::ref_ptr<osgText::Font> font = fontFor(characters);
   placeAscii(*font, kUsualTexels);
   placeAscii(*font, texels);
   osg::ref_ptr<osgText::Text> text = new osgText::Text;
@@ -67,7 +69,7 @@ osg::ref_ptr<osgText::Text> TextParts::makeText(const std::string& utf8, unsigne
   text->setUseVertexBufferObjects(true);
   text->setUseVertexArrayObject(false);
   text->setFont(font);
-  text->setText(utf8, osgText::String::ENCODING_UTF8);
+  text->setText(characters);
   // What its quads cover is not all glyph: depth of them would leave holes in what is blended behind, by the order
   // drawn.
   text->setEnableDepthWrites(false);

@@ -40,7 +40,7 @@ class TextParts {
  private:
   void look();
   void placeAscii(osgText::Font& font, unsigned texels);
-  osg::ref_ptr<osgText::Font> fontFor(const std::string& utf8);
+  osg::ref_ptr<osgText::Font> fontFor(const osgText::String& characters);
 
   Place place_;
   osg::ref_ptr<osgText::Font> font_;

@@ -6,6 +6,7 @@
 #include <osgText/Text>
 
 #include "nodes/osg_math.h"
+#include "nodes/text/visual_order.h"
 
 namespace stillframe::nodes {
 namespace {
@@ -50,8 +51,7 @@ void FrameLabels::setText(osg::Node& label, const std::string& text, const scene
   if (shown == nullptr) {
     return;
   }
-  osgText::String wanted;
-  wanted.set(text, osgText::String::ENCODING_UTF8);
+  const osgText::String wanted = visualOrder(text);
   if (!std::equal(wanted.begin(), wanted.end(), shown->getText().begin(), shown->getText().end())) {
     shown->setText(wanted);
   }

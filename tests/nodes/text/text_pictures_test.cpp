@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <osgDB/Registry>
 
 #include "nodes/text/find_font.h"
 #include "nodes/text/text_maker.h"
+#include "nodes/text/visual_order.h"
 #include "tests/nodes/markers/marker_builder.h"
 #include "tests/nodes/scene_picture.h"
 
@@ -94,14 +96,43 @@ TEST_F(TextPicture, HasCharactersOfTheFarEastBesideLatinOnes) {
   EXPECT_FALSE(drawn("A\u7bb1") == drawn("B\u7bb1"));
 }
 
+osgText::String charactersOf(const char* utf8) { return {utf8, osgText::String::ENCODING_UTF8}; }
+
+TEST(VisualOrder, TurnsRoundWhatIsWrittenFromRightToLeftLineByLine) {
+  const auto expectOrder = [](const char* written, const char* drawn) {
+    const osgText::String visual = nodes::visualOrder(written);
+    EXPECT_TRUE(std::ranges::equal(visual, charactersOf(drawn))) << written << " is drawn as " << drawn;
+  };
+  expectOrder("", "");
+  expectOrder("/camera/\u00e9tat \u041f", "/camera/\u00e9tat \u041f");
+  expectOrder("a \u7bb1", "a \u7bb1");
+  expectOrder("\u05e9\u05dc\u05d5\u05dd", "\u05dd\u05d5\u05dc\u05e9");
+  expectOrder("\u05d0\u05d1 12", "12 \u05d1\u05d0");
+  expectOrder("ab \u05d0\u05d1 c", "ab \u05d1\u05d0 c");
+  expectOrder("\u05d0\u05d1\nab\n", "\u05d1\u05d0\nab\n");
+}
+
+TEST(VisualOrder, JoinsTheLettersOfArabic) {
+  // Seen, lam, alef, meem: a first form, lam and alef as one, and a letter alone, as nothing joins to an alef.
+  const osgText::String joined = nodes::visualOrder("\u0633\u0644\u0627\u0645");
+  EXPECT_TRUE(std::ranges::equal(joined, std::array{0xFEE1U, 0xFEFCU, 0xFEB3U}));
+}
+
+TEST_F(TextPicture, ShowsHebrewAndArabicInTheirOrder) {
+  const auto drawn = [this](const std::string& text) { return drawInOrder({words(text)}).rgb; };
+  EXPECT_TRUE(drawn("\u05d0\u05d1") == drawn("\u202d\u05d1\u05d0")) << "as where the order is given";
+  EXPECT_FALSE(drawn("\u05d0\u05d1") == drawn("\u05d1\u05d0"));
+  EXPECT_TRUE(drawn("\u0628\u0628") == drawn("\ufe91\ufe90")) << "as with the forms themselves";
+  EXPECT_FALSE(drawn("\u0628\u0628") == drawn("\u0628\u200c\u0628")) << "which are not those of letters alone";
+}
+
 TEST(Fonts, KnowTextsOfTheFarEast) {
-  for (const char* text :
-       {"", "obj 99", "\u00c4\u00f6\u20ac", "\u041f\u0440\u0438", "\u2192 \u2122", "\ufb01", "\xe9"}) {
-    EXPECT_FALSE(nodes::isEastAsian(text)) << text;
+  for (const char* text : {"", "obj 99", "\u00c4\u00f6\u20ac", "\u041f\u0440\u0438", "\u2192 \u2122", "\ufb01"}) {
+    EXPECT_FALSE(nodes::isEastAsian(charactersOf(text))) << text;
   }
   for (const char* text :
        {"\u2e80", "\u3042", "a\u4e00b", "\u9fff", "\uac00", "\ud7a3", "\uf900", "\uff21", "\U00020000"}) {
-    EXPECT_TRUE(nodes::isEastAsian(text)) << text;
+    EXPECT_TRUE(nodes::isEastAsian(charactersOf(text))) << text;
   }
 }
 

@@ -17,7 +17,8 @@ namespace stillframe::scenegraph {
 /// being taken of the sum, which is the one thing here that is not exact.
 ///
 /// Curves: "none" (exposure alone), "aces" (K. Narkowicz's fit of the ACES filmic curve, 2016), "neutral" (the Khronos
-/// PBR Neutral tone mapper, 2024, which leaves colours below 0.8 as they are but for 4 % of black). All are monotone.
+/// PBR Neutral tone mapper, 2024: below 0.8 it takes 0.04 off each channel, less where the least of them is below 0.08,
+/// and does nothing else, so at no exposure is it the identity). All are monotone.
 struct ToneMapSettings {
   std::string curve = "neutral";
   double exposure = 0.0;  ///< EV: each step doubles the light

@@ -199,7 +199,8 @@ void ViewPipeline::Impl::drawFrame() {
   }
 }
 
-/// Of a frame beside its points; the next is not to be late too.
+/// Of a frame beside its points, of the last sub-frame where there are several: that is what a frame takes when they
+/// are switched off. The next is not to be late too.
 void ViewPipeline::Impl::noteRest(double took_ms) {
   rest_ms = rest_ms && took_ms < *rest_ms ? (*rest_ms + took_ms) / 2.0 : took_ms;
 }

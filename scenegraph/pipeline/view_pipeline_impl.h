@@ -35,7 +35,7 @@ struct SteppedPicture {
   bool awaits_points = false;  // they are being drawn by another thread
   bool has_points = false;     // those that are not drawn with the scene
   bool is_begun = false;       // the scene's targets are cleared
-  double rest_ms = 0.0;        // that all but the points has taken
+  double rest_ms = 0.0;        // that all but the points of this sub-frame has taken
   std::unique_ptr<StageUnderWay> under_way;
 };
 
@@ -66,7 +66,7 @@ struct ViewPipeline::Impl {
   PointLimits point_limits;
   std::function<void()> wake;
   std::unique_ptr<gl::Output> aside;  // what is presented, until it is whole, where step() waits for nobody
-  std::optional<double> rest_ms;      // of a frame beside its points, once measured where there is a budget for both
+  std::optional<double> rest_ms;  // of a (sub-)frame beside its points, once measured where there is a budget for both
   bool is_software = false;
   osg::ref_ptr<osg::Group> content;         // the root, and the picture of the points
   std::unique_ptr<PointStage> point_stage;  // none before there are points for it

@@ -1,6 +1,10 @@
 #include "scenegraph/passes/tone_map.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <osg/BlendFunc>
+#include <vector>
 
 #include "tests/scenegraph/passes/pass_scene.h"
 
@@ -57,6 +61,42 @@ TEST_F(ToneMapTest, HitsThePublishedValues) {
   EXPECT_NEAR(red(neutral, 0, 0), 0.46F, 1e-3F);
   EXPECT_NEAR(red(neutral, 1, 0), 0.76F, 1e-3F);
   EXPECT_NEAR(red(neutral, 2, 0), 1.0F - 0.24F * 0.24F / (0.96F + 0.24F - 0.76F), 1e-3F);
+}
+
+/// Khronos PBR Neutral as its specification writes it, beside the shader's own way of writing it.
+std::array<double, 3> specifiedNeutral(const osg::Vec4& light) {
+  const double least = std::min({light.x(), light.y(), light.z()});
+  const double offset = least < 0.08 ? least - 6.25 * least * least : 0.04;
+  std::array<double, 3> color{light.x() - offset, light.y() - offset, light.z() - offset};
+  const double peak = *std::ranges::max_element(color);
+  if (peak >= 0.76) {
+    const double compressed = 1.0 - 0.24 * 0.24 / (peak + 0.24 - 0.76);
+    const double grey = 1.0 - 1.0 / (0.15 * (peak - compressed) + 1.0);
+    for (double& part : color) {
+      part = part * compressed / peak * (1.0 - grey) + compressed * grey;
+    }
+  }
+  return color;
+}
+
+TEST_F(ToneMapTest, NeutralIsTheSpecifiedCurveWhichTakesOffTheSameFromAllChannelsBelowItsStart) {
+  std::vector<osg::Vec4> colors;
+  for (const float peak : {0.0F, 0.01F, 0.0625F, 0.078125F, 0.09375F, 0.25F, 0.5F, 0.75F, 0.875F, 1.0F, 2.0F, 16.0F}) {
+    for (const float share : {0.0F, 0.125F, 0.5F, 1.0F}) {
+      colors.emplace_back(peak, peak * share, 0.5F * peak * (1.0F + share), 0.0F);
+    }
+  }
+  const Picture row = drawRow(colors, {"neutral", 0.0});
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const auto specified = specifiedNeutral(colors[i]);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      EXPECT_NEAR(row.rgba[4 * i + channel], specified[channel], 1e-3) << i << ' ' << channel;
+    }
+    if (colors[i].x() <= 0.75F) {
+      EXPECT_NEAR(row.rgba[4 * i] - row.rgba[4 * i + 1], colors[i].x() - colors[i].y(), 1e-3)
+          << "linear, but less what a dielectric reflects: it is not the identity";
+    }
+  }
 }
 
 TEST_F(ToneMapTest, ExposureDoublesTheLightOfEachStep) {

@@ -10,6 +10,7 @@
 #include <osg/Notify>
 
 #include "generated/stillframe_render/shaders.h"
+#include "scenegraph/pipeline/texture_uploads.h"
 #include "scenegraph/raster/points_in_view.h"
 
 namespace stillframe::scenegraph {
@@ -257,8 +258,8 @@ std::size_t ComputePoints::resolve(const PointShading& shading, const glm::vec4&
     texture->apply(state_);
     state_.haveAppliedTextureAttribute(0, texture.get());
   }
-  const GLuint color = color_->getTextureObject(state_.getContextID())->id();
-  const GLuint depth = depth_->getTextureObject(state_.getContextID())->id();
+  const GLuint color = textureId(color_, state_.getContextID());
+  const GLuint depth = textureId(depth_, state_.getContextID());
   std::size_t uploaded = 0;
   const UniformSetter uniforms(resolve_program_);
   glBindImageTexture(0, color, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);

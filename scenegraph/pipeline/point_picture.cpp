@@ -4,6 +4,7 @@
 #include <osg/State>
 
 #include "scenegraph/pipeline/gl_target.h"
+#include "scenegraph/pipeline/texture_uploads.h"
 
 namespace stillframe::scenegraph {
 
@@ -15,12 +16,8 @@ PointPicture::PointPicture(const PointDrawer& drawer) : drawer_(drawer) {
 
 void PointPicture::drawImplementation(osg::RenderInfo& info) const {
   const PointPixels pixels = drawer_.pixels();
-  const auto idOf = [&](const osg::Texture* texture) {
-    const auto* const object = texture == nullptr ? nullptr : texture->getTextureObject(info.getContextID());
-    return object == nullptr ? 0U : object->id();
-  };
-  const std::uint32_t color = idOf(targets_.color);
-  const std::uint32_t depth = idOf(targets_.depth);
+  const std::uint32_t color = textureId(targets_.color, info.getContextID());
+  const std::uint32_t depth = textureId(targets_.depth, info.getContextID());
   const int width_px = targets_.color == nullptr ? 0 : targets_.color->getTextureWidth();
   const int height_px = targets_.color == nullptr ? 0 : targets_.color->getTextureHeight();
   const auto count = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);

@@ -64,6 +64,12 @@ class KeptBinding {
 
 }  // namespace
 
+unsigned textureId(const osg::Texture* texture, unsigned context_id) {
+  const osg::Texture::TextureObject* const object =
+      texture == nullptr ? nullptr : texture->getTextureObject(context_id);
+  return object == nullptr ? 0U : object->id();
+}
+
 bool TextureUploads::bring(const osgUtil::StateGraph& graph, osg::State& state,
                            const std::function<bool()>& is_time_up) {
   for (const osgUtil::StateGraph* at = &graph; at != nullptr; at = at->_parent) {

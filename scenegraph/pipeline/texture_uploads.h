@@ -9,6 +9,9 @@
 
 namespace stillframe::scenegraph {
 
+/// Name that OpenGL has for a texture; 0 where it has none, or there is no texture.
+[[nodiscard]] unsigned textureId(const osg::Texture* texture, unsigned context_id);
+
 /// Takes large textures to OpenGL in bands of rows, so that a step of a frame can end between them.
 ///
 /// OSG uploads a texture whole when it is first drawn with. Here it goes, band by band, into a texture object that is

@@ -16,6 +16,7 @@
 #include "scenegraph/osg_matrix.h"
 #include "scenegraph/pipeline/compute_points.h"
 #include "scenegraph/pipeline/gl_context_info.h"
+#include "scenegraph/pipeline/texture_uploads.h"
 #include "scenegraph/pipeline/view_pipeline_impl.h"
 #include "scenegraph/stopwatch.h"
 #include "scenegraph/thread_priority.h"
@@ -111,15 +112,13 @@ void ViewPipeline::Impl::adoptGlState() {
   }
 }
 
-GLuint ViewPipeline::Impl::textureId(const std::string& target) const {
-  osg::Texture* const texture = stages ? stages->target(target) : nullptr;
-  const osg::Texture::TextureObject* object = texture == nullptr ? nullptr : texture->getTextureObject(contextId());
-  return object == nullptr ? 0U : object->id();
+GLuint ViewPipeline::Impl::targetId(const std::string& target) const {
+  return textureId(stages ? stages->target(target) : nullptr, contextId());
 }
 
 /// OSG only prints a line when a framebuffer is incomplete and draws elsewhere; this says so.
 std::expected<void, Status> ViewPipeline::Impl::checkTargets() const {
-  const std::uint32_t status = gl::incompleteStatus(textureId(stages->sceneTarget()), textureId(stages->depthTarget()));
+  const std::uint32_t status = gl::incompleteStatus(targetId(stages->sceneTarget()), targetId(stages->depthTarget()));
   if (status == 0) {
     return {};
   }

@@ -101,10 +101,10 @@ struct ViewPipeline::Impl {
   void drawFrame();
   void noteRest(double took_ms);
   [[nodiscard]] bool isPaced() const { return is_software && std::isfinite(point_limits.budget_ms); }
-  [[nodiscard]] GLuint textureId(const std::string& target) const;
+  [[nodiscard]] GLuint targetId(const std::string& target) const;
   [[nodiscard]] auto read(decltype(gl::readColor)* reader, const std::string& target, int first, int rows) const {
     const bool has_rows = stages && first >= 0 && rows > 0 && rows <= height_px - first;
-    return has_rows ? reader(textureId(target), {width_px, first, rows}) : std::vector<float>{};
+    return has_rows ? reader(targetId(target), {width_px, first, rows}) : std::vector<float>{};
   }
   [[nodiscard]] osg::RenderInfo startPick();
   [[nodiscard]] IdPass::View idView(int x_px, int y_px, int reach_px) const;

@@ -1,4 +1,5 @@
-# stillframe_test(NAME SOURCES ... LINKS ... LABELS ... [ENV ...] [PRECOMPILED HEADERS...]): a GoogleTest program, run by CTest.
+# stillframe_test(NAME [ALONE] SOURCES ... LINKS ... LABELS ... [ENV ...] [PRECOMPILED HEADERS...]): a GoogleTest program, run by CTest;
+# ALONE: while nothing else runs, for what takes times.
 # Labels: unit (no GL), gl (surfaceless EGL), golden, qt (needs an X display), data (needs ../shared/data), lint.
 #
 # Suites of label unit are listed test by test; those that bring up GL or Qt run as one CTest test a program, since
@@ -18,7 +19,7 @@ elseif(STILLFRAME_SANITIZE)
 endif()
 
 function(stillframe_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;LABELS;ENV;PRECOMPILED" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE" "" "SOURCES;LINKS;LABELS;ENV;PRECOMPILED" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   add_dependencies(stillframe_tests ${name})
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main GTest::gmock)
@@ -31,9 +32,10 @@ function(stillframe_test name)
   endif()
   if(STILLFRAME_SANITIZE OR ARG_LABELS MATCHES "gl|golden|qt")
     add_test(NAME ${STILLFRAME_TEST_PREFIX}${name} COMMAND ${name})
-    set_tests_properties(${STILLFRAME_TEST_PREFIX}${name} PROPERTIES LABELS "${ARG_LABELS}" ENVIRONMENT "${ARG_ENV}" TIMEOUT 600)
+    set_tests_properties(${STILLFRAME_TEST_PREFIX}${name} PROPERTIES LABELS "${ARG_LABELS}" ENVIRONMENT "${ARG_ENV}" TIMEOUT 600
+                         RUN_SERIAL ${ARG_ALONE})
   else()
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
-                         PROPERTIES LABELS "${ARG_LABELS}" ENVIRONMENT "${ARG_ENV}" TIMEOUT 300)
+                         PROPERTIES LABELS "${ARG_LABELS}" ENVIRONMENT "${ARG_ENV}" TIMEOUT 300 RUN_SERIAL ${ARG_ALONE})
   endif()
 endfunction()

@@ -8,6 +8,7 @@
 #include <QMenu>
 #include <QTest>
 #include <QToolButton>
+#include <algorithm>
 
 #include "tests/viewer/viewer_support.h"
 #include "viewer/frames/frame_picker.h"
@@ -102,6 +103,34 @@ TEST_F(CameraBarTest, WhatANarrowBarCutsOffIsInTheMenuOfItsExtension) {
   find(*find(*more->menu(), QStringLiteral("Display frame"))->menu(), QStringLiteral("base_link"))->trigger();
   EXPECT_EQ(panel_.view().camera().displayFrame(), "base_link");
   EXPECT_EQ(find(*more->menu(), QStringLiteral("Views"))->menu(), &bar().views());
+}
+
+TEST_F(CameraBarTest, ButtonsThatAreSparedInANarrowViewAreInThatMenuAsWell) {
+  panel_.hidePanels();
+  settle();
+  ASSERT_LE(panel_.minimumSizeHint().width(), 200);
+  const auto button = [&](const char* name) { return panel_.findChild<QToolButton*>(QString::fromLatin1(name)); };
+  panel_.resize(200, 500);
+  settle();
+  EXPECT_EQ(panel_.width(), 200);
+  EXPECT_FALSE(button("detach")->isVisible());
+  EXPECT_TRUE(button("close")->isVisible());
+  EXPECT_LE(button("close")->mapTo(&panel_, QPoint(button("close")->width(), 0)).x(), 200);
+  int detached = 0;
+  QObject::connect(&panel_, &ViewPanel::detachRequested, [&] { ++detached; });
+  auto* const more = bar().findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+  Q_EMIT more->menu()->aboutToShow();
+  const auto entries = more->menu()->actions();
+  const auto entry = std::ranges::find(entries, button("detach")->toolTip(), &QAction::text);
+  ASSERT_NE(entry, entries.end());
+  (*entry)->trigger();
+  EXPECT_EQ(detached, 1);
+  for (const int width : {400, 210, 400}) {  // and back in turn
+    panel_.resize(width, 500);
+    settle();
+    EXPECT_EQ(button("detach")->isVisible(), width == 400);
+    EXPECT_EQ(button("effects")->isVisible(), width == 400);
+  }
 }
 
 TEST_F(CameraBarTest, TheExtensionOpensWhereTheSavedViewsAloneAreCutOff) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "viewer/frames/frame_picker.h"
+#include "viewer/view/narrow_bar.h"
 #include "viewer/widget/scene_widget.h"
 #include "viewer/window/icons.h"
 
@@ -147,6 +148,16 @@ void CameraBar::fillMore() {
                                     : tr("&Display frame"),
                  *more_);
     }
+  }
+  if (bar_ == nullptr || bar_->sparedNow().empty()) {
+    return;
+  }
+  more_->addSeparator();
+  for (QToolButton* const button : bar_->sparedNow()) {
+    QAction* const entry = more_->addAction(button->icon(), button->toolTip().section(':', 0, 0));
+    entry->setCheckable(button->isCheckable());
+    entry->setChecked(button->isChecked());
+    connect(entry, &QAction::triggered, button, &QToolButton::click);
   }
 }
 

@@ -9,6 +9,7 @@ class QMenu;
 namespace stillframe::viewer {
 
 class FramePicker;
+class NarrowBar;
 class SceneWidget;
 
 /// Camera model, display frame, follow mode, recenter and saved views of one view; what does not fit is in the menu of
@@ -18,6 +19,8 @@ class CameraBar : public QToolBar {
 
  public:
   explicit CameraBar(SceneWidget& view, QWidget* parent = nullptr);
+  /// What that one spares is in the extension's menu too. It outlives this.
+  void setBar(const NarrowBar& bar) { bar_ = &bar; }
 
   /// The frames of the recording may be more; cheap when nothing is new.
   void refresh();
@@ -36,6 +39,7 @@ class CameraBar : public QToolBar {
   void askForName();
 
   SceneWidget& view_;
+  const NarrowBar* bar_ = nullptr;
   QComboBox* kinds_ = nullptr;
   QComboBox* follows_ = nullptr;
   FramePicker* display_frame_ = nullptr;

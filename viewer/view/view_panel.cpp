@@ -15,6 +15,7 @@
 #include "viewer/layers/legend_overlay.h"
 #include "viewer/view/camera_bar.h"
 #include "viewer/view/effect_panel.h"
+#include "viewer/view/narrow_bar.h"
 #include "viewer/view/view_grip.h"
 #include "viewer/view/view_history.h"
 #include "viewer/widget/scene_widget.h"
@@ -53,7 +54,7 @@ ViewPanel::ViewPanel(QWidget* parent)
   mark_->setFixedHeight(kMarkHeight);
   mark_->setAutoFillBackground(true);
   layout->addWidget(mark_);
-  auto* bar = new QWidget(this);
+  auto* bar = new NarrowBar(this);
   auto* bar_layout = new QHBoxLayout(bar);
   bar_layout->setContentsMargins(4, 0, 4, 2);
   bar_layout->setSpacing(2);
@@ -89,6 +90,7 @@ ViewPanel::ViewPanel(QWidget* parent)
                            tr("Move this view into a window of its own"));
   auto* close = addButton(*bar, QStringLiteral("close"), transportIcon(TransportIcon::Close), tr("Close this view"));
   arranging_ = {grip, split_right, split_below, detach, close};
+  bar->spare({detach, split_below, split_right, effects_button_, legend_button_});
   layout->addWidget(bar);
 
   splitter_->setChildrenCollapsible(true);
@@ -102,6 +104,7 @@ ViewPanel::ViewPanel(QWidget* parent)
   // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): after what it stands on
   legend_ = new LegendOverlay(*view_);
   camera_bar_ = new CameraBar(*view_, bar);
+  camera_bar_->setBar(*bar);
   place_of_camera_bar->addWidget(camera_bar_);
   view_->setMinimumSize(kLeastPicture);
   splitter_->setCollapsible(1, false);

@@ -4,11 +4,14 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QTest>
+#include <QThread>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
+#include <osgUtil/CullVisitor>
 
 #include "tests/viewer/shown_widget.h"
 #include "tests/viewer/viewer_support.h"
@@ -57,6 +60,53 @@ TEST_F(WidgetPickTest, ClickSelectsThePointAndFFramesIt) {
   click({3, 3});
   EXPECT_FALSE(selected()) << "a click on nothing deselects";
   EXPECT_FALSE(widget_.selection());
+}
+
+/// Notes what each frame is drawn from, and takes its time.
+struct SlowFrames : osg::NodeCallback {
+  void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+    drawn_from[widget.framesDrawn() + 1] = *visitor->asCullVisitor()->getModelViewMatrix();
+    QThread::msleep(20);
+    traverse(node, visitor);
+  }
+  explicit SlowFrames(const SceneWidget& slow) : widget(slow) {}
+  const SceneWidget& widget;
+  std::map<std::uint64_t, osg::Matrixd> drawn_from;  // by numbers of frames
+};
+
+TEST_F(WidgetPickTest, TheRingIsWhereTheThingIsInThePictureDuringASmoothMove) {
+  click(at(0.5, -0.25));
+  ASSERT_TRUE(selected());
+  const osg::ref_ptr<SlowFrames> slow = new SlowFrames(widget_);
+  widget_.scene()->root().setCullCallback(slow);
+  widget_.setSmoothMoves(true);
+  const auto begun = widget_.framesDrawn();
+  QTest::keyClick(&widget_, Qt::Key_F);
+  auto frames = begun;
+  int placed_aside = 0;
+  EXPECT_TRUE(waitFor([&] {
+    QCoreApplication::processEvents();
+    if (widget_.framesDrawn() == frames) {
+      return false;
+    }
+    frames = widget_.framesDrawn();
+    const auto pose = widget_.scene()->frames().fixedFromFrame("lidar");
+    const glm::dvec3 in_fixed = tf::transformPoint(*pose, selected()->picked.point_in_frame);
+    const osg::Vec3d in_eye = osg::Vec3d(in_fixed.x, in_fixed.y, in_fixed.z) * slow->drawn_from.at(frames);
+    const auto view = widget_.shownView();
+    const double half_height = std::tan(view.vertical_fov_rad / 2.0);
+    const double x = 200.0 + 150.0 * in_eye.x() / (-in_eye.z() * half_height);
+    const auto& ring = widget_.picks().placed().ring_px;
+    if (widget_.isUpToDate() || frames > begun + 4) {
+      return true;
+    }
+    EXPECT_TRUE(ring);
+    EXPECT_NEAR(ring ? ring->x : 0.0, x, 1e-6) << frames - begun;
+    placed_aside += std::abs(x - 200.0) > 1.0 ? 1 : 0;
+    return false;
+  }));
+  EXPECT_GT(placed_aside, 0) << "the camera was on its way";
+  widget_.scene()->root().setCullCallback(nullptr);
 }
 
 TEST_F(WidgetPickTest, HoverSaysWhatIsThereAndDrawsNoFrame) {

@@ -18,17 +18,18 @@ constexpr int kLeastPickerWidth = 40;
 
 }  // namespace
 
-FramePose::FramePose(QWidget* parent) : QWidget(parent) {
+FramePose::FramePose(QWidget* parent)
+    : QWidget(parent),
+      source_(new FramePicker(tr("Pose of"), tr("the frame whose pose is shown"), this)),
+      target_(new FramePicker(tr("In"), tr("the frame it is expressed in"), this)),
+      label_(new QLabel(this)),
+      copy_(new QToolButton(this)) {
   auto* layout = new QGridLayout(this);
   layout->setContentsMargins(4, 2, 4, 2);
   layout->setSpacing(2);
-  source_ = new FramePicker(tr("Pose of"), tr("the frame whose pose is shown"), this);
-  target_ = new FramePicker(tr("In"), tr("the frame it is expressed in"), this);
-  label_ = new QLabel(this);
   label_->setObjectName(QStringLiteral("pose"));
   label_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   label_->setWordWrap(true);
-  copy_ = new QToolButton(this);
   copy_->setObjectName(QStringLiteral("copyPose"));
   copy_->setText(tr("Copy"));
   copy_->setToolTip(tr("Copy the pose as JSON, with all 17 digits"));

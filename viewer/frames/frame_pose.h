@@ -39,8 +39,8 @@ class FramePose : public QWidget {
   std::optional<std::string> target_name_;
   std::optional<std::string> source_name_;
   QString json_;
-  FramePicker* target_ = nullptr;
   FramePicker* source_ = nullptr;
+  FramePicker* target_ = nullptr;
   QLabel* label_ = nullptr;
   QToolButton* copy_ = nullptr;
 };

@@ -49,7 +49,7 @@ void ViewPicker::hover(QPointF position) {
   if (scene == nullptr) {
     return;
   }
-  const auto picks = scenegraph::pickFrames(scene->frames().buffer(), scene->frames().snapshot(), view_.shownView(),
+  const auto picks = scenegraph::pickFrames(scene->frames().buffer(), scene->frames().snapshot(), shown_,
                                             {static_cast<double>(view_.width()), static_cast<double>(view_.height())},
                                             {position.x(), position.y()}, kHoverReach, kMostHovered + 1);
   const QString frame = picks.empty() ? QString() : QString::fromStdString(picks.front().frame);
@@ -174,9 +174,14 @@ void ViewPicker::onPicksChanged() {
   place();
 }
 
+void ViewPicker::showFrame(const scenegraph::CameraView& view) {
+  shown_ = view;
+  place();
+}
+
 void ViewPicker::place() {
   if (view_.scene() != nullptr) {
-    picks_->place(*view_.scene(), view_.shownView());
+    picks_->place(*view_.scene(), shown_);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <deque>
 #include <optional>
 
+#include "scenegraph/camera/camera.h"
 #include "viewer/widget/update_gate.h"
 
 namespace stillframe::viewer {
@@ -41,8 +42,8 @@ class ViewPicker : public QObject {
   void leave();
   /// Another dataset: nothing is picked.
   void clear();
-  /// A frame is about to be shown.
-  void place();
+  /// A frame is about to be shown, which was drawn from there.
+  void showFrame(const scenegraph::CameraView& view);
 
  private:
   struct Click {
@@ -56,8 +57,10 @@ class ViewPicker : public QObject {
   void hoverThing();
   bool pickAt(QPointF position, bool measures);
   void onPicksChanged();
+  void place();
 
   SceneWidget& view_;
+  scenegraph::CameraView shown_;  // what the frame that is shown was drawn from
   ViewPicks* picks_ = nullptr;
   HoverLabel* label_ = nullptr;
   QString frame_;                  // hovered

@@ -99,6 +99,7 @@ void SceneWidget::beginFrame() {
   walk();
   const double begun_s = now();
   const scenegraph::CameraView view = camera_.view(begun_s);
+  steps_.view = view;
   steps_.is_moving = camera_.isMoving(begun_s);
   if (scene_ != nullptr) {
     const QSizeF size = QSizeF(this->size()) * devicePixelRatioF();
@@ -187,7 +188,7 @@ void SceneWidget::endFrame() {
   kept_.release();
   ++frames_drawn_;
   showProgress();
-  picker_->place();
+  picker_->showFrame(steps_.view);
   if (keys_.isWalking() || steps_.is_moving || pointShare() < 1.0) {
     update();
   } else if (steps_.is_wanted) {

@@ -112,7 +112,7 @@ void PictureSaver::saveWindow(QWidget& window, const QString& file) {
 // NOLINTNEXTLINE(performance-unnecessary-value-param): kept by the worker
 void PictureSaver::write(Work work, Token is_cancelled, const QString& file, QSize size) {
   // Answers come back as events of the application, which outlives the workers; we may be gone by then.
-  const auto tell = [self = QPointer<PictureSaver>(this)](auto what) {
+  const auto tell = [self = QPointer<PictureSaver>(this)](const auto& what) {
     QMetaObject::invokeMethod(
         QCoreApplication::instance(),
         [self, what] {

@@ -19,7 +19,7 @@ struct ConverterType {
   /// The error is the reason why a channel of that schema cannot be drawn, half a sentence.
   std::expected<std::unique_ptr<MessageDecoder>, std::string> (*create)(const SchemaRecord& schema,
                                                                         std::string_view message_encoding);
-  std::string_view topic_segment = "";  ///< the last one of the topics that it is about; "": all topics
+  std::string_view topic_segment = {};  ///< the last one of the topics that it is about; "": all topics
 };
 
 /// Every schema that can be drawn.

@@ -16,6 +16,9 @@ class Executor {
   virtual void submitSpare(std::function<void()> job) = 0;
   /// Returns when every job of submit() so far has run. Not from within a job.
   virtual void drain() = 0;
+  /// What a job that submits another calls, when it may outlive this: the executor behind this one, which its jobs do
+  /// not outlive. Any thread.
+  [[nodiscard]] virtual Executor& backing() { return *this; }
 };
 
 /// Runs each job inside submit(), and no spare one: tests and headless rendering, where the first picture must be the

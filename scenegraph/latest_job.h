@@ -65,7 +65,7 @@ class LatestJob {
         return;
       }
     }
-    executor_.submit([state = state_, requester = std::this_thread::get_id(), executor = &executor_] {
+    executor_.submit([state = state_, requester = std::this_thread::get_id(), executor = &executor_.backing()] {
       run(*state, requester, *executor);
     });
   }

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <condition_variable>
 #include <deque>
 #include <semaphore>
 
@@ -283,57 +282,6 @@ TEST_F(SampleLoaderTest, ConvertsWhatIsNotAllThereOnlyWhereThatIsKnownToWait) {
   whole.update({20_s});
   ASSERT_NE(whole.product(), nullptr);
   EXPECT_EQ(whole.product()->width, 8U);
-}
-
-TEST(LatestJob, TellsItsResultBeforeWhatTheWorkHeldIsGivenBack) {
-  const auto pool = makeThreadPoolExecutor(1);
-  std::binary_semaphore is_told{0};
-  std::binary_semaphore is_taken{0};
-  std::atomic<bool> was_taken_first = false;
-  LatestJob<Width> job(*pool, [&] { is_told.release(); });
-  std::shared_ptr<void> memory(nullptr,
-                               [&](void*) { was_taken_first = is_taken.try_acquire_for(std::chrono::seconds(5)); });
-  job.request({1, 2, 3, 4, "a"}, [memory = std::move(memory)] {
-    return LatestJob<Width>::Result(std::make_shared<const Width>(Width{1}));
-  });
-  is_told.acquire();
-  EXPECT_TRUE(job.take());
-  is_taken.release();
-  pool->drain();
-  EXPECT_TRUE(was_taken_first);
-}
-
-TEST(LatestJob, TurnsAnExceptionIntoAStatusAndRemembersIt) {
-  const auto executor = makeSynchronousExecutor();
-  LatestJob<int> job(*executor, {});
-  int runs = 0;
-  for (int i = 0; i < 2; ++i) {
-    job.request(CacheKey{}, [&]() -> LatestJob<int>::Result {
-      ++runs;
-      throw std::runtime_error("boom");
-    });
-    const auto outcome = job.take();
-    ASSERT_TRUE(outcome);
-    EXPECT_EQ(outcome->result.error().code, "ConversionFailed");
-  }
-  EXPECT_EQ(runs, 1);
-}
-
-TEST(LatestJob, OnAPoolOnlyTheLatestResultIsTaken) {
-  const auto executor = makeThreadPoolExecutor(2);
-  std::atomic<int> wakes = 0;
-  LatestJob<int> job(*executor, [&] { ++wakes; });
-  CacheKey key;
-  for (int i = 1; i <= 200; ++i) {
-    key.log_time_ns = i;
-    job.request(key, [i] { return std::make_shared<const int>(i); });
-  }
-  executor->drain();
-  const auto outcome = job.take();
-  ASSERT_TRUE(outcome);
-  EXPECT_EQ(**outcome->result, 200);
-  EXPECT_GE(wakes, 1);
-  EXPECT_FALSE(job.isPending());
 }
 
 TEST_F(SampleLoaderTest, MakesTheNextSampleOfTheDirectionOfPlayWhenThereIsTime) {

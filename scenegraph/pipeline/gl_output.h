@@ -13,6 +13,9 @@ class Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
+  void bind() const;
+  /// Its pixels, 0xAARRGGBB each, the top row first; `argb` has room for all. Waits until they are drawn.
+  void read(std::uint32_t* argb) const;
   [[nodiscard]] std::uint32_t id() const noexcept { return fbo_; }
   [[nodiscard]] int width() const noexcept { return width_px_; }
   [[nodiscard]] int height() const noexcept { return height_px_; }

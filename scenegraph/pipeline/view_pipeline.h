@@ -19,6 +19,9 @@
 #include "scenegraph/status.h"
 
 namespace stillframe::scenegraph {
+namespace gl {
+class Output;
+}
 
 /// Who draws opaque points.
 enum class PointWay : std::uint8_t { Auto, OpenGl, Cpu, Compute };
@@ -81,6 +84,9 @@ class ViewPipeline {
   static constexpr double kStepMs = 12.0;  ///< the budget in a window: other events wait no longer
   /// Presents what step() has drawn, over the whole of `output_fbo`. Does nothing before that.
   void present(std::uint32_t output_fbo);
+  /// The same in an output of its size, in exchange for the one that was drawn aside where step() waits for nobody:
+  /// nothing is drawn, and who reads it waits for nobody either.
+  void present(std::unique_ptr<gl::Output>& output);
   /// The same without present, for readColor(): what a picture file holds is not rounded to bytes on the way.
   std::expected<void, Status> renderLinear(int width_px, int height_px);
   /// Rows of the last render, counted from the bottom, bottom row first, as OpenGL has them; waits for the GPU.

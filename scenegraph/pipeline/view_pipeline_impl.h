@@ -93,6 +93,7 @@ struct ViewPipeline::Impl {
   PictureStep stepPoints(double budget_ms);
   [[nodiscard]] bool drawsAside() const { return is_software && wake; }
   [[nodiscard]] bool isDrawn() const { return stepped->stage + (drawsAside() ? 0 : 1) >= stages->count(); }
+  [[nodiscard]] bool canPresent() const { return stages && stepped && stepped->under_way == nullptr && isDrawn(); }
   void beginStage(double budget_ms);
   [[nodiscard]] bool isStageDrawn(double wait_ms) const;
   [[nodiscard]] bool endStage();

@@ -157,10 +157,26 @@ PictureStep ViewPipeline::Impl::stepPoints(double budget_ms) {
   return at.has_points ? PictureStep::Whole : PictureStep::More;
 }
 
+void ViewPipeline::present(std::unique_ptr<gl::Output>& output) {
+  Impl& impl = *impl_;
+  if (!impl.canPresent() || !impl.drawsAside() || output->width() != impl.width_px ||
+      output->height() != impl.height_px) {
+    present(output->id());
+    return;
+  }
+  std::swap(output, impl.aside);
+  const double rest_ms = impl.stepped->rest_ms;
+  impl.stepped.reset();
+  if (impl.point_progress && impl.isPaced()) {
+    impl.noteRest(rest_ms);
+  }
+  output->bind();
+  impl.namePasses();
+}
+
 void ViewPipeline::present(std::uint32_t output_fbo) {
   Impl& impl = *impl_;
-  const bool is_there = impl.stages && impl.stepped && impl.stepped->under_way == nullptr && impl.isDrawn();
-  if (!is_there) {
+  if (!impl.canPresent()) {
     return;
   }
   const Precedence frame(Precedence::Of::Window);

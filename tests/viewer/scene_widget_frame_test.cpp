@@ -47,14 +47,14 @@ TEST_F(SceneWidgetFrames, ShowsTheLastPictureInItsMiddleUntilTheNextIsWhole) {
   // One after the other, all of the picture before the first: what was cut off comes back.
   for (const QSize size : {QSize(500, 360), QSize(240, 180), QSize(360, 400)}) {
     widget_.resize(size);
-    const auto [kept, kept_middle] = placeOf(widget_.QOpenGLWidget::grabFramebuffer(), QColor(0, 255, 255));
+    const auto [kept, kept_middle] = placeOf(widget_.grabShown(), QColor(0, 255, 255));
     EXPECT_EQ(widget_.framesDrawn(), frames) << "a resize draws nothing, whatever there is to draw";
     EXPECT_EQ(kept, count);
     EXPECT_NEAR(kept_middle.x(), middle.x() + (size.width() - 400) / 2.0, 1.0);
     EXPECT_NEAR(kept_middle.y(), middle.y() + (size.height() - 300) / 2.0, 1.0);
   }
   ASSERT_TRUE(waitFor([&] { return widget_.framesDrawn() > frames; }));
-  EXPECT_NE(placeOf(widget_.QOpenGLWidget::grabFramebuffer(), QColor(0, 255, 255)).first, count) << "drawn anew";
+  EXPECT_NE(placeOf(widget_.grabShown(), QColor(0, 255, 255)).first, count) << "drawn anew";
   widget_.scene()->root().removeChild(before_eye);
   settle();
 }
@@ -100,25 +100,25 @@ TEST_F(SceneWidgetFrames, ShowsTheLastPictureOnASharperScreenUntilTheNextIsWhole
   settle();
   const auto frames = view.framesDrawn();
   view.setRatio(2);
-  const QImage kept = view.QOpenGLWidget::grabFramebuffer();
+  const QImage kept = view.grabShown();
   EXPECT_EQ(kept.size(), QSize(400, 300));
   EXPECT_EQ(view.framesDrawn(), frames) << "nothing is drawn as yet";
   EXPECT_EQ(placeOf(kept, QColor(0, 255, 255)).first, count);
   ASSERT_TRUE(waitFor([&] { return view.framesDrawn() > frames; }));
-  EXPECT_NEAR(placeOf(view.QOpenGLWidget::grabFramebuffer(), QColor(0, 255, 255)).first, 4 * count, count / 2);
+  EXPECT_NEAR(placeOf(view.grabShown(), QColor(0, 255, 255)).first, 4 * count, count / 2);
   view.scene()->root().removeChild(before_eye);
   settle();
 }
 
 TEST_F(SceneWidgetFrames, PaintingTheWindowAloneDrawsNoFrame) {
   const auto frames = widget_.framesDrawn();
-  const QImage before = widget_.QOpenGLWidget::grabFramebuffer();
+  const QImage before = widget_.grabShown();
   for (int i = 0; i < 3; ++i) {
-    widget_.QOpenGLWidget::update();  // as when something over it moves
+    widget_.QWidget::update();  // as when something over it moves
     settle();
   }
   EXPECT_EQ(widget_.framesDrawn(), frames);
-  EXPECT_EQ(widget_.QOpenGLWidget::grabFramebuffer(), before);
+  EXPECT_EQ(widget_.grabShown(), before);
 }
 
 TEST_F(SceneWidgetFrames, DrawsALongFrameInSteps) {
@@ -138,9 +138,9 @@ TEST_F(SceneWidgetFrames, DrawsALongFrameInSteps) {
   widget_.setTime(TimePoint{3_s});
   EXPECT_FALSE(widget_.applyTick()) << "the scene stands still meanwhile";
   EXPECT_NE(widget_.scene()->frames().time(), TimePoint{3_s});
-  EXPECT_EQ(widget_.QOpenGLWidget::grabFramebuffer(), at_first) << "no part of a picture is shown";
+  EXPECT_EQ(widget_.grabShown(), at_first) << "no part of a picture is shown";
   ASSERT_TRUE(waitFor([&] { return widget_.framesDrawn() > frames; }));
-  EXPECT_EQ(widget_.QOpenGLWidget::grabFramebuffer().pixelColor(200, 150), QColor(0, 255, 255));
+  EXPECT_EQ(widget_.grabShown().pixelColor(200, 150), QColor(0, 255, 255));
   ASSERT_TRUE(waitFor([&] { return widget_.scene()->frames().time() == TimePoint{3_s}; }));
 
   // What changes while a frame is drawn is in the next one, and a picture that somebody waits for is whole.

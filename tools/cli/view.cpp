@@ -46,6 +46,7 @@ struct ViewCommandOptions {
   std::string layout;
   std::string screenshot;
   std::string theme;
+  std::string compose = "auto";
   bool reports_stalls = false;
 };
 
@@ -154,6 +155,9 @@ Result<void> runView(const ViewCommandOptions& options) {
   if (!options.theme.empty()) {
     inspector.theme = viewer::themeOf(options.theme);
   }
+  inspector.way = options.compose == "image"    ? viewer::ViewWay::Image
+                  : options.compose == "opengl" ? viewer::ViewWay::Composed
+                                                : viewer::ViewWay::Auto;
   inspector.reports_stalls = options.reports_stalls;
   inspector.layers.only = options.only_named_layers;
   if (!options.time.empty()) {
@@ -221,6 +225,11 @@ Command addViewCommand(CLI::App& app) {
   app.add_option("--screenshot", options->screenshot, "Save a PNG of the window when all is loaded, and quit");
   app.add_option("--theme", options->theme, "Colours of the window: system, light or dark; default: as chosen last")
       ->check(CLI::IsMember({"system", "light", "dark"}));
+  app.add_option("--compose", options->compose,
+                 "What brings views to the screen: opengl, with all of the window, or image, each read back and "
+                 "painted; auto: image where OpenGL is software")
+      ->check(CLI::IsMember({"auto", "opengl", "image"}))
+      ->capture_default_str();
   app.add_flag("--stalls", options->reports_stalls,
                "When the window closes, say what has kept it from answering, for how long");
   return [options] { return runView(*options); };

@@ -29,7 +29,7 @@ QLabel* makeOverlay(QWidget* parent) {
 }  // namespace
 
 SceneWidget::SceneWidget(QWidget* parent)
-    : QOpenGLWidget(parent),
+    : GlView(parent),
       gate_([this] { applyTick(); }),
       wake_gate_([this] { turn_.ask(); }),
       message_(makeOverlay(this)),
@@ -39,8 +39,6 @@ SceneWidget::SceneWidget(QWidget* parent)
       turn_([this] { return stepFrame(); }, [this] { return underMouse() || hasFocus(); }) {
   clock_.start();
   connect(this, &SceneWidget::cameraChanged, this, [this] { restored_.reset(); });
-  setFormat(glFormat());
-  setUpdateBehavior(PartialUpdate);  // the last picture stays while the next is drawn
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(0, 0);
@@ -132,8 +130,10 @@ QString SceneWidget::problem() const { return message_->isHidden() ? QString() :
 
 void SceneWidget::initializeGL() {
   disconnect(context_watch_);
-  context_watch_ =
-      connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &SceneWidget::releaseGl, Qt::DirectConnection);
+  if (context() != nullptr) {
+    context_watch_ =
+        connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &SceneWidget::releaseGl, Qt::DirectConnection);
+  }
   const auto info = scenegraph::inspectCurrentContext();
   is_context_usable_ = info.has_value();
   steps_ = {};

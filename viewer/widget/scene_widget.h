@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QElapsedTimer>
-#include <QOpenGLWidget>
 #include <QString>
 #include <cstdint>
 #include <expected>
@@ -23,6 +22,7 @@
 #include "viewer/widget/camera_keys.h"
 #include "viewer/widget/frame_steps.h"
 #include "viewer/widget/frame_turn.h"
+#include "viewer/widget/gl_view.h"
 #include "viewer/widget/selection.h"
 #include "viewer/widget/update_gate.h"
 
@@ -38,8 +38,8 @@ struct PictureRequest;
 ///
 /// Draws on demand only: a tick, a camera, a setting or a finished background job asks for it, several requests make
 /// one update from the event loop, and an update that changes nothing draws nothing. Survives losing its context
-/// (moving to another window, hiding) and frees what it holds in it. What cannot be drawn is said over the view.
-class SceneWidget : public QOpenGLWidget {
+/// (moving to another window) and frees what it holds in it. What cannot be drawn is said over the view.
+class SceneWidget : public GlView {
   Q_OBJECT
 
  public:
@@ -140,8 +140,8 @@ class SceneWidget : public QOpenGLWidget {
 
  protected:
   void initializeGL() override;
-  void paintGL() override;
-  void paintEvent(QPaintEvent* event) override;
+  bool paintGL() override;
+  [[nodiscard]] bool mayPaint() const override { return !is_resizing_ && !isLent(); }
   void resizeEvent(QResizeEvent* event) override;
   void showEvent(QShowEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
@@ -156,9 +156,9 @@ class SceneWidget : public QOpenGLWidget {
  private:
   void releaseGl(), dropPipeline(), takeBack(), stepDrawTimes(), onCameraMoved(), walk(), frameIfWanted();
   [[nodiscard]] bool isLent() const noexcept { return picture_ != nullptr || draw_times_ != nullptr; }
-  void beginFrame(), continueFrame(), endFrame(), askForFrame(), fillBlank(), keepPicture(), startBlank();
+  void beginFrame(), continueFrame(), endFrame(), askForFrame(), keepPicture(), startBlank();
   FrameTurn::Step stepFrame();
-  bool followTick(), obey(CameraCommand command), steer(CameraCommand command);
+  bool fillBlank(), followTick(), obey(CameraCommand command), steer(CameraCommand command);
   [[nodiscard]] scenegraph::Follow::Pose displayPose() const;
   [[nodiscard]] double now() const { return static_cast<double>(clock_.nsecsElapsed()) * 1e-9; }
   void showProgress(), sayProgress(const QString& text), showProblem(const QString& text);

@@ -39,7 +39,7 @@ void SceneWidget::askForFrame() {
   if (is_software_ && is_context_usable_ && !steps_.is_blank) {
     turn_.ask();
   } else {
-    QOpenGLWidget::update();
+    paintSoon();
   }
 }
 
@@ -49,34 +49,43 @@ QImage SceneWidget::grabFramebuffer() {
     applyTick();
   }
   const QScopedValueRollback whole(steps_.is_whole, true);
-  return QOpenGLWidget::grabFramebuffer();
+  return grabShown();
 }
 
-void SceneWidget::paintGL() {
+bool SceneWidget::paintGL() {
   if (!is_context_usable_) {
-    return;
+    return false;
   }
   if (steps_.at == At::Ready) {
-    pipeline_->present(defaultFramebufferObject());
-    endFrame();
-  } else if (steps_.at == At::Rest && (!is_software_ || steps_.is_whole)) {
-    beginFrame();
-  } else if (steps_.at == At::Rest) {
-    fillBlank();
-    if (steps_.is_wanted) {
-      turn_.ask();
+    if (auto* const output = ownOutput()) {
+      pipeline_->present(*output);
+    } else {
+      pipeline_->present(defaultFramebufferObject());
     }
+    endFrame();
+    return true;
   }
+  if (steps_.at == At::Rest && (!is_software_ || steps_.is_whole)) {
+    beginFrame();
+    return true;
+  }
+  const bool is_filled = steps_.at == At::Rest && fillBlank();
+  if (steps_.at == At::Rest && steps_.is_wanted) {
+    turn_.ask();
+  }
+  return is_filled;
 }
 
-/// A new framebuffer shows what the last one did until a frame is whole.
-void SceneWidget::fillBlank() {
-  if (std::exchange(steps_.is_blank, false)) {
-    const QSize size_px = sizePxOf(*this);
-    kept_.put(defaultFramebufferObject(), size_px.width(), size_px.height(),
-              {background_.r, background_.g, background_.b, 1.0F});
-    steps_.is_wanted = true;
+/// A new framebuffer shows what the last one did until a frame is whole. Returns whether it was new.
+bool SceneWidget::fillBlank() {
+  if (!std::exchange(steps_.is_blank, false)) {
+    return false;
   }
+  const QSize size_px = sizePxOf(*this);
+  kept_.put(defaultFramebufferObject(), size_px.width(), size_px.height(),
+            {background_.r, background_.g, background_.b, 1.0F});
+  steps_.is_wanted = true;
+  return true;
 }
 
 /// Of the size before a resize: the framebuffer goes with it.
@@ -118,7 +127,7 @@ void SceneWidget::beginFrame() {
     endFrame();
     return;
   }
-  fillBlank();
+  (void)fillBlank();
   steps_.is_wanted = false;
   continueFrame();
   if (steps_.at == At::Ready && !is_software_) {
@@ -163,6 +172,9 @@ FrameTurn::Step SceneWidget::stepFrame() {
       steps_.is_wanted = true;  // what shows the view again asks for a frame
       requestTick();
     }
+    if (isVisible() && !isLent()) {
+      paintSoon();  // once it is exposed, which else may paint nothing
+    }
     return Over;
   }
   if (steps_.at == At::Rest && picker_->holdsView()) {
@@ -176,7 +188,7 @@ FrameTurn::Step SceneWidget::stepFrame() {
   }
   doneCurrent();
   if (steps_.at == At::Ready) {
-    QOpenGLWidget::update();
+    paintSoon();
   }
   return steps_.at == At::Waiting ? Waits : steps_.at == At::UnderWay ? GoesOn : Over;
 }

@@ -27,27 +27,25 @@ void SceneWidget::startBlank() {
   update();
 }
 
-/// On a screen with other pixels QOpenGLWidget makes a new framebuffer, without a resize.
+/// On a screen with other pixels there is a new framebuffer, without a resize.
 bool SceneWidget::event(QEvent* event) {
   const bool is_sharper =
       event->type() == QEvent::ScreenChangeInternal && !steps_.shown_px.isEmpty() && steps_.shown_px != sizePxOf(*this);
   if (is_sharper) {
     keepPicture();
   }
-  const bool is_taken = QOpenGLWidget::event(event);
+  const bool is_taken = GlView::event(event);
   if (is_sharper) {
     startBlank();
   }
   return is_taken;
 }
 
-/// QOpenGLWidget paints within each resize, and once more when the window does: a splitter that settles in three steps
-/// would draw four frames for one that is seen.
 void SceneWidget::resizeEvent(QResizeEvent* event) {
   keepPicture();
   {
     const QScopedValueRollback resizing(is_resizing_, true);
-    QOpenGLWidget::resizeEvent(event);
+    GlView::resizeEvent(event);
   }
   startBlank();
   message_->setGeometry(rect());
@@ -56,14 +54,8 @@ void SceneWidget::resizeEvent(QResizeEvent* event) {
   }
 }
 
-void SceneWidget::paintEvent(QPaintEvent* event) {
-  if (!is_resizing_ && !isLent()) {
-    QOpenGLWidget::paintEvent(event);
-  }
-}
-
 void SceneWidget::showEvent(QShowEvent* event) {
-  QOpenGLWidget::showEvent(event);
+  GlView::showEvent(event);
   requestTick();
 }
 
@@ -113,7 +105,7 @@ void SceneWidget::keyPressEvent(QKeyEvent* event) {
       update();
     }
   } else {
-    QOpenGLWidget::keyPressEvent(event);
+    GlView::keyPressEvent(event);
   }
 }
 
@@ -121,13 +113,13 @@ void SceneWidget::keyReleaseEvent(QKeyEvent* event) {
   if (keys_.release(*event)) {
     Q_EMIT cameraChanged();
   } else {
-    QOpenGLWidget::keyReleaseEvent(event);
+    GlView::keyReleaseEvent(event);
   }
 }
 
 void SceneWidget::focusOutEvent(QFocusEvent* event) {
   keys_.releaseAll();  // the release goes to somebody else
-  QOpenGLWidget::focusOutEvent(event);
+  GlView::focusOutEvent(event);
 }
 
 void SceneWidget::toggleHelp() { help_->setShown(!help_->isShown()); }
@@ -253,7 +245,7 @@ bool SceneWidget::steer(CameraCommand command) {
 
 void SceneWidget::leaveEvent(QEvent* event) {
   picker_->leave();
-  QOpenGLWidget::leaveEvent(event);
+  GlView::leaveEvent(event);
 }
 
 }  // namespace stillframe::viewer

@@ -6,7 +6,7 @@
 
 namespace stillframe::viewer {
 
-/// In device pixels, as QOpenGLWidget makes its framebuffer. GUI thread.
+/// In device pixels, as framebuffers of widgets are made. GUI thread.
 [[nodiscard]] inline QSize sizePxOf(const QWidget& widget) {
   return (QSizeF(widget.size()) * widget.devicePixelRatioF()).toSize();
 }

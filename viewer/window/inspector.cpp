@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "viewer/widget/gl_format.h"
+#include "viewer/widget/gl_view.h"
 #include "viewer/window/inspector_window.h"
 #include "viewer/window/stall_monitor.h"
 
@@ -45,6 +46,7 @@ std::expected<int, scenegraph::Status> runInspector(int argc, char** argv, const
   QApplication::setApplicationName(QStringLiteral("Stillframe"));
   QApplication::setOrganizationName(QStringLiteral("Stillframe"));
   applyTheme(options.theme.value_or(rememberedTheme()));
+  GlView::setWay(options.way);
   StallMonitor monitor;
   InspectorWindow window(opener, options);
   if (options.reports_stalls) {

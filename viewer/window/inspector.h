@@ -12,6 +12,7 @@
 #include "scenegraph/pipeline/view_pipeline.h"
 #include "scenegraph/status.h"
 #include "viewer/layers/layer_choices.h"
+#include "viewer/widget/view_way.h"
 #include "viewer/window/dataset_loader.h"
 #include "viewer/window/theme.h"
 
@@ -28,6 +29,7 @@ struct InspectorOptions {
   LayerChoices layers = {};
   scenegraph::PointWay points = scenegraph::PointWay::Auto;  ///< who draws opaque points
   std::optional<double> point_budget_ms = {};                ///< of a frame; absent: what suits the renderer
+  ViewWay way = ViewWay::Auto;                               ///< of views to the screen
   scenegraph::ViewEffects effects = {};                      ///< of views that no layout describes
   std::optional<scenegraph::Layout> layout = {};             ///< the views; what else is said here goes before it
   std::optional<std::filesystem::path> layout_file = {};     ///< where it came from and Save layout writes it to

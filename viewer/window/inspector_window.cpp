@@ -316,7 +316,7 @@ void InspectorWindow::takeScreenshotWhenComplete() {
   }
   for (ViewPanel* panel : views()) {
     panel->view().applyTick();
-    connect(&panel->view(), &QOpenGLWidget::frameSwapped, this, &InspectorWindow::takeScreenshotWhenComplete,
+    connect(&panel->view(), &SceneWidget::painted, this, &InspectorWindow::takeScreenshotWhenComplete,
             static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::UniqueConnection));
   }
   if (!isComplete() || !std::ranges::all_of(views(), [](ViewPanel* panel) { return panel->view().isUpToDate(); })) {

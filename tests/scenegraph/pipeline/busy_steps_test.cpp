@@ -2,6 +2,7 @@
 #include <chrono>
 #include <thread>
 
+#include "scenegraph/pipeline/gl_output.h"
 #include "scenegraph/pipeline/gl_target.h"
 #include "tests/scenegraph/pipeline/picture_steps.h"
 
@@ -69,6 +70,33 @@ TEST_F(BusySteps, ComeToTheSamePictureAndShowNothingBeforeIt) {
   EXPECT_TRUE(colors() == whole);
   pipeline_->present(large_->id());
   EXPECT_EQ(shown(), whole_shown);
+}
+
+TEST_F(BusySteps, AreExchangedForTheOutputOfWhoReadsIt) {
+  ASSERT_TRUE(pipeline_->render(large_->id(), kLargeWidth, kLargeHeight));
+  const auto read = [](const gl::Output& output) {
+    std::vector<std::uint32_t> argb(static_cast<std::size_t>(kLargeWidth) * kLargeHeight);
+    output.read(argb.data());
+    return argb;
+  };
+  const auto whole = read(*large_);
+  for (int y = 0; y < kLargeHeight; y += 97) {
+    const auto [r, g, b] = large_->pixel(kLargeWidth / 2, kLargeHeight - 1 - y);
+    const std::uint32_t there = whole[static_cast<std::size_t>(y) * kLargeWidth + kLargeWidth / 2];
+    EXPECT_EQ(there & 0xFFFFFFU, static_cast<std::uint32_t>((r << 16) | (g << 8) | b)) << "the top row first";
+  }
+
+  auto mine = std::make_unique<gl::Output>(kLargeWidth, kLargeHeight);
+  pipeline_->setWake([] {});
+  const std::uint32_t given = mine->id();
+  for (int frame = 0; frame < 2; ++frame) {
+    ASSERT_EQ(stepTo(PictureStep::Whole), PictureStep::Whole);
+    pipeline_->present(mine);
+    EXPECT_TRUE(read(*mine) == whole) << frame;
+    EXPECT_EQ(mine->id() == given, frame % 2 == 1) << "two of them take turns";
+    pipeline_->present(mine);
+    EXPECT_TRUE(read(*mine) == whole) << "there is no other";
+  }
 }
 
 TEST_F(BusySteps, AreLeftForAPictureAtOnceAndForOneOfAnotherSize) {

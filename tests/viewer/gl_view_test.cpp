@@ -97,18 +97,23 @@ TEST_F(GlViewWays, AnImageKeepsItsContextFromWindowToWindow) {
   EXPECT_EQ(view->glMessages(), 0U);
 }
 
-TEST_F(GlViewWays, WhatIsOverAnImageIsSeen) {
-  const auto view = show(ViewWay::Image);
-  QLabel over(view.get());
-  over.setStyleSheet(QStringLiteral("background: rgb(255, 0, 255);"));
-  over.setGeometry(10, 20, 30, 40);
-  over.show();
-  const auto frames = view->framesDrawn();
-  settle();
-  const QImage seen = view->grab().toImage();
-  EXPECT_EQ(seen.pixelColor(25, 40), QColor(255, 0, 255));
-  EXPECT_NE(seen.pixelColor(45, 40), QColor(255, 0, 255));
-  EXPECT_EQ(view->framesDrawn(), frames) << "painting draws no frame";
+TEST_F(GlViewWays, WhatIsOverAViewIsSeenHoweverLowItIsPut) {
+  for (const ViewWay way : {ViewWay::Composed, ViewWay::Image}) {
+    const auto view = show(way);
+    QLabel over(view.get());
+    over.setStyleSheet(QStringLiteral("background: rgb(255, 0, 255);"));
+    over.setGeometry(10, 20, 30, 40);
+    over.show();
+    const auto frames = view->framesDrawn();
+    settle();
+    for (int i = 0; i < 2; ++i) {
+      const QImage seen = view->grab().toImage();
+      EXPECT_EQ(seen.pixelColor(25, 40), QColor(255, 0, 255));
+      EXPECT_NE(seen.pixelColor(45, 40), QColor(255, 0, 255));
+      over.lower();
+    }
+    EXPECT_EQ(view->framesDrawn(), frames) << "painting draws no frame";
+  }
 }
 
 TEST_F(GlViewWays, AViewWithoutRoomOrContextIsSurvived) {

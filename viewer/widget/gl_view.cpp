@@ -243,6 +243,21 @@ bool GlView::event(QEvent* event) {
   return is_taken;
 }
 
+void GlView::childEvent(QChildEvent* event) {
+  QWidget::childEvent(event);
+  if (canvas_ != nullptr && event->added() && event->child() != canvas_) {
+    event->child()->installEventFilter(this);
+  }
+}
+
+/// The canvas is what all others lie over, the lowest of them too.
+bool GlView::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ZOrderChange && canvas_ != nullptr && watched->parent() == this) {
+    canvas_->lower();
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
 void GlView::resizeEvent(QResizeEvent* /*event*/) {
   if (canvas_ != nullptr) {
     canvas_->setGeometry(rect());

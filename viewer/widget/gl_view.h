@@ -59,6 +59,8 @@ class GlView : public QWidget {
   /// Calls paintGL() from the event loop, and shows what it has drawn.
   void paintSoon();
   bool event(QEvent* event) override;
+  void childEvent(QChildEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;  ///< of children
   void resizeEvent(QResizeEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
 

@@ -162,6 +162,28 @@ TEST(ProblemList, ListsTheProblemsOfTheRecordingWithCounts) {
   EXPECT_TRUE(text.contains(QStringLiteral("BadChunk")) && text.contains(QStringLiteral("3 times")));
 }
 
+TEST(ProblemList, LooksThroughTransformsWhenAllAreThere) {
+  test::DatasetBuilder builder;
+  builder.topic("/tf", scenegraph::ObjectType::FrameTransforms);
+  for (std::int64_t tenth = 0; tenth < 20; ++tenth) {
+    builder.transform(tenth * 100_ms, "map", "odom");
+  }
+  builder.transform(60_s, "map", "other");  // the recording is known to be as long
+  ProblemList problems;
+  int checks = 0;
+  QObject::connect(&problems, &ProblemList::checked, &problems, [&] { ++checks; });
+  problems.setLoading(true);
+  problems.setDataset(builder.build());
+  problems.refresh();
+  EXPECT_FALSE(QTest::qWaitFor([&] { return problems.isChecked(); }, 200)) << "there may be more of them";
+  EXPECT_EQ(problems.topLevelItemCount(), 0);
+  problems.setLoading(false);
+  ASSERT_TRUE(waitFor([&] { return problems.isChecked(); }));
+  EXPECT_EQ(checks, 1);
+  ASSERT_EQ(problems.topLevelItemCount(), 1);
+  EXPECT_TRUE(problems.topLevelItem(0)->text(0).startsWith(QStringLiteral("StaleTransform")));
+}
+
 TEST(ProblemList, GapsJumpsAndConflictsCanBeGoneTo) {
   test::DatasetBuilder builder;
   builder.topic("/tf", scenegraph::ObjectType::FrameTransforms);

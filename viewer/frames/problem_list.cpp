@@ -48,6 +48,13 @@ void ProblemList::setDataset(std::shared_ptr<const scenegraph::Dataset> dataset)
   refresh();
 }
 
+void ProblemList::setLoading(bool is_loading) {
+  if (std::exchange(is_loading_, is_loading) && !is_loading) {
+    since_check_.invalidate();
+    refresh();
+  }
+}
+
 bool ProblemList::isChecked() const {
   return dataset_ == nullptr || checked_revision_ == dataset_->transforms()->revision();
 }
@@ -56,15 +63,19 @@ void ProblemList::refresh() {
   if (dataset_ == nullptr) {
     return;
   }
-  if (check_ != nullptr && check_->is_done) {
+  const bool is_done = check_ != nullptr && check_->is_done;
+  if (is_done) {
     of_edges_ = std::move(check_->found);
     checked_revision_ = check_->revision;
     check_.reset();
   }
-  if (check_ == nullptr && !isChecked()) {
+  if (check_ == nullptr && !is_loading_ && !isChecked()) {
     startCheck();
   }
   showProblems();
+  if (is_done) {
+    Q_EMIT checked();
+  }
 }
 
 void ProblemList::startCheck() {

@@ -24,11 +24,14 @@ class ProblemList : public QTreeWidget {
   void setDataset(std::shared_ptr<const scenegraph::Dataset> dataset);
   /// The dataset may have grown.
   void refresh();
+  /// Transforms of a recording that is being loaded seem to end early: they are looked through when all are there.
+  void setLoading(bool is_loading);
   /// Whether the transforms there are now have been looked through.
   [[nodiscard]] bool isChecked() const;
 
  Q_SIGNALS:
   void timeRequested(tf::TimePoint time);
+  void checked();
 
  private:
   struct Check;
@@ -42,6 +45,7 @@ class ProblemList : public QTreeWidget {
   std::vector<scenegraph::Problem> of_edges_;
   std::vector<scenegraph::Problem> shown_;
   QElapsedTimer since_check_;
+  bool is_loading_ = false;
   UpdateGate gate_;
 };
 

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "viewer/frames/frame_tree.h"
+#include "viewer/frames/problem_list.h"
 #include "viewer/pick/inspect_dock.h"
 #include "viewer/time/opening_time.h"
 #include "viewer/time/time_bar.h"
@@ -138,6 +139,8 @@ void InspectorWindow::connectFrames() {
   connect(frame_tree_, &FrameTree::hiddenFramesEdited, this,
           [this](const FrameTree::Names& hidden) { activeView().setHiddenFrames(hidden); });
   connect(frame_tree_, &FrameTree::timeRequested, time_bar_, &TimeBar::setTime);
+  connect(&frame_tree_->problems(), &ProblemList::checked, this, &InspectorWindow::takeScreenshotWhenComplete,
+          Qt::QueuedConnection);
   connect(views_, &ViewSet::activeChanged, this, [this] {
     frame_tree_->setHiddenFrames(activeView().hiddenFrames());
     inspect_->setView(activeView().view());
@@ -152,7 +155,7 @@ InspectorWindow::~InspectorWindow() {
 void InspectorWindow::openFiles(std::vector<std::filesystem::path> files) {
   statusBar()->showMessage(
       files.empty() ? QString() : tr("Opening %1").arg(QString::fromStdString(files.front().filename().string())));
-  is_loading_ = true;
+  setLoading(true);
   progress_->setRange(0, 0);
   progress_->show();
   loader_->open(std::move(files));
@@ -219,9 +222,14 @@ void InspectorWindow::fillView(ViewPanel& panel) {
   }
 }
 
+void InspectorWindow::setLoading(bool is_loading) {
+  is_loading_ = is_loading;
+  frame_tree_->problems().setLoading(is_loading);
+}
+
 void InspectorWindow::onOpened(const std::shared_ptr<scenegraph::Dataset>& dataset) {
   dataset_ = dataset;
-  is_loading_ = true;
+  setLoading(true);
   progress_->show();
   messages_->hide();
   setWindowTitle(QString::fromStdString(dataset->name()) + QStringLiteral(" - Stillframe"));
@@ -272,7 +280,7 @@ void InspectorWindow::onProgress(double fraction) {
 }
 
 void InspectorWindow::onLoaded() {
-  is_loading_ = false;
+  setLoading(false);
   progress_->hide();
   statusBar()->clearMessage();
   onProgress(1.0);
@@ -295,7 +303,7 @@ void InspectorWindow::onFailed(const scenegraph::Status& status) {
   if (options_.screenshot) {
     failUnattended(QString::fromStdString(status.message));
   }
-  is_loading_ = loader_->isBusy();
+  setLoading(loader_->isBusy());
   if (!is_loading_) {
     progress_->hide();
   } else {
@@ -319,7 +327,8 @@ void InspectorWindow::takeScreenshotWhenComplete() {
     connect(&panel->view(), &SceneWidget::painted, this, &InspectorWindow::takeScreenshotWhenComplete,
             static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::UniqueConnection));
   }
-  if (!isComplete() || !std::ranges::all_of(views(), [](ViewPanel* panel) { return panel->view().isUpToDate(); })) {
+  const bool is_drawn = std::ranges::all_of(views(), [](ViewPanel* panel) { return panel->view().isUpToDate(); });
+  if (!isComplete() || !is_drawn || !frame_tree_->problems().isChecked()) {
     return;
   }
   const QPixmap picture = grab();  // draws the views once more

@@ -89,6 +89,7 @@ class InspectorWindow : public QMainWindow {
   void connectFrames();
   void tellNotRestored();
   [[nodiscard]] QStringList openingRemarks() const;
+  void setLoading(bool is_loading);
   void takeScreenshotWhenComplete();
   /// Ends the program with exit code 1: nobody is there to read a message bar.
   void failUnattended(const QString& message);

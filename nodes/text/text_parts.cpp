@@ -8,6 +8,7 @@
 #include "nodes/text/find_font.h"
 #include "nodes/text/visual_order.h"
 #include "scenegraph/geometry.h"
+#include "scenegraph/own_texture.h"
 
 namespace stillframe::nodes {
 
@@ -70,6 +71,9 @@ osg::ref_ptr<osgText::Text> TextParts::makeText(const std::string& utf8, unsigne
   text->setUseVertexArrayObject(false);
   text->setFont(font);
   text->setText(characters);
+  if (osgText::Glyph* const glyph = font->getGlyph({texels, texels}, ' ')) {
+    text->setUserData(new scenegraph::OwnTexture(glyph->getOrCreateTextureInfo(text->getShaderTechnique())->texture));
+  }
   // What its quads cover is not all glyph: depth of them would leave holes in what is blended behind, by the order
   // drawn.
   text->setEnableDepthWrites(false);

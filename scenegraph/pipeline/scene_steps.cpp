@@ -79,6 +79,20 @@ bool SceneSteps::hasData(const osgUtil::RenderLeaf& leaf, bool has_indices, osg:
   return !is_used_up_;
 }
 
+/// False when the go ends: before code for mipmaps is made, unless that is the first thing of it, and then after it.
+bool SceneSteps::hasMipmapCode(const osgUtil::RenderLeaf& leaf) {
+  const osg::Texture2D* const texture =
+      std::isfinite(budget_ms_) && waits_ ? first_uses_->mipmaps().missingFor(leaf) : nullptr;
+  if (texture == nullptr) {
+    return true;
+  }
+  is_used_up_ = met_new_program_ = true;
+  if (drawn_ == begun_ && !has_uploaded_) {
+    first_uses_->mipmaps().make(*texture);
+  }
+  return false;
+}
+
 /// False when the go ends: before `program` is linked, unless that is the first thing of it, and then after it.
 template <typename Link>
 bool SceneSteps::isLinked(FirstUses::Is& program, const Link& link) {
@@ -117,7 +131,7 @@ void SceneSteps::drawPieces(Transparency& blended, osgUtil::RenderBin& bin, osg:
   while (!blended.isDone() && isNext()) {
     const osgUtil::RenderLeaf* const leaf = blended.nextLeaf(pieces);
     const bool lays_over = leaf == nullptr && !pieces.empty() && pieces.front().leaf != nullptr;
-    if (leaf != nullptr && !hasData(*leaf, sliceCount(*leaf->_drawable) == 1, render_info)) {
+    if (leaf != nullptr && (!hasMipmapCode(*leaf) || !hasData(*leaf, sliceCount(*leaf->_drawable) == 1, render_info))) {
       return;
     }
     if (leaf != nullptr &&
@@ -155,7 +169,7 @@ void SceneSteps::drawImplementation(osgUtil::RenderBin* bin, osg::RenderInfo& re
   const auto draw = [&](osgUtil::RenderLeaf* leaf) {
     const std::size_t slices = waits_ ? sliceCount(*leaf->_drawable) : 1;
     for (std::size_t slice = 0; slice < slices; ++slice) {
-      if (!isNext() || !hasData(*leaf, slices == 1, render_info) ||
+      if (!isNext() || !hasMipmapCode(*leaf) || !hasData(*leaf, slices == 1, render_info) ||
           !isLinked(first_uses_->of(*leaf, false), [&] { linkOnly(*leaf, render_info, previous); })) {
         continue;
       }

@@ -59,6 +59,7 @@ class SceneSteps : public osgUtil::RenderBin::DrawCallback {
                   osgUtil::RenderLeaf*& previous);
   [[nodiscard]] bool isNext();
   [[nodiscard]] bool hasData(const osgUtil::RenderLeaf& leaf, bool has_indices, osg::RenderInfo& render_info);
+  [[nodiscard]] bool hasMipmapCode(const osgUtil::RenderLeaf& leaf);
   template <typename Link>
   [[nodiscard]] bool isLinked(FirstUses::Is& program, const Link& link);
   [[nodiscard]] double& costOf(std::size_t drawable);

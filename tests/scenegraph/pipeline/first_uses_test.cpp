@@ -1,8 +1,10 @@
 // Pictures in steps: what is new to OpenGL, programs and arrays.
 #include <gtest/gtest.h>
 
+#include <osg/Texture2D>
 #include <string>
 
+#include "scenegraph/own_texture.h"
 #include "scenegraph/pipeline/buffer_uploads.h"
 #include "tests/scenegraph/pipeline/picture_steps.h"
 
@@ -35,6 +37,49 @@ TEST_F(PictureSteps, AProgramThatIsNewTakesTwoStepsAndNoOtherIsLinkedInThem) {
   EXPECT_EQ(inSteps(kAmple_ms), 2) << "a pass that is new is a step";
   pipeline_->releaseGl();
   EXPECT_GT(inSteps(kAmple_ms), 4 * 2) << "in another context all are new";
+}
+
+TEST_F(PictureSteps, CodeForMipmapsOfAFormatTakesTwoStepsOfItsOwn) {
+  constexpr double kAmple_ms = 1e6;
+  const osg::ref_ptr<osg::Program> program = makeProgram("textured", kTestVertex, R"(#version 450 compatibility
+uniform sampler2D u_texture;
+void main() { gl_FragColor = vec4(textureLod(u_texture, gl_FragCoord.xy / vec2(96.0, 72.0), 1.0).rgb, 1.0); }
+)");
+  float z = 0.0F;
+  const auto steps = [&](GLint format, int width, osg::Texture::FilterMode filter, bool is_own) {
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(width, 16, 1, format == GL_R8 ? GL_RED : GL_RGBA, GL_UNSIGNED_BYTE, 1);
+    image->setInternalTextureFormat(format);
+    for (unsigned i = 0; i < image->getTotalSizeInBytes(); ++i) {
+      image->data()[i] = static_cast<unsigned char>((i * 2654435761U) >> 24U);
+    }
+    const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+    texture->setFilter(osg::Texture::MIN_FILTER, filter);
+    texture->setResizeNonPowerOfTwoHint(false);
+    const osg::ref_ptr<osg::Geode> quad = makeQuad(1, 1, z += 0.01F, {1, 1, 1, 1});
+    osg::StateSet& state = *quad->getDrawable(0)->getOrCreateStateSet();
+    state.setAttributeAndModes(program);
+    if (is_own) {
+      quad->getDrawable(0)->setUserData(new OwnTexture(texture));
+    } else {
+      state.setTextureAttribute(0, texture);
+    }
+    root_->addChild(quad);
+    const int count = inSteps(kAmple_ms);
+    const Pixels in_steps = read();
+    pipeline_->present(output_->id());
+    EXPECT_TRUE(atOnce() == in_steps);
+    return count;
+  };
+  using enum osg::Texture::FilterMode;
+  constexpr int kOwn = 3;  // what is known ends before; code of the first level, and of the others
+  steps(GL_RGBA8, 16, LINEAR, false);
+  const int without = steps(GL_RGBA8, 16, LINEAR, false);
+  EXPECT_EQ(steps(GL_RGBA8, 16, LINEAR_MIPMAP_LINEAR, false), without + kOwn);
+  EXPECT_EQ(steps(GL_RGBA8, 32, LINEAR_MIPMAP_NEAREST, false), without) << "it is there now";
+  EXPECT_EQ(steps(GL_RGBA8, 17, LINEAR_MIPMAP_LINEAR, false), without + kOwn) << "of sides that halves do not fit";
+  EXPECT_EQ(steps(GL_R8, 16, LINEAR_MIPMAP_LINEAR, true), without + kOwn) << "of a texture that the drawable names";
+  EXPECT_EQ(steps(GL_R8, 16, LINEAR_MIPMAP_LINEAR, false), without);
 }
 
 /// Bands that the arrays of a sheet take, at least.

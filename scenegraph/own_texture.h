@@ -4,7 +4,6 @@
 #include <osg/Referenced>
 #include <osg/Texture2D>
 #include <osg/ref_ptr>
-#include <utility>
 
 namespace stillframe::scenegraph {
 
@@ -12,15 +11,12 @@ namespace stillframe::scenegraph {
 /// Steps of a frame make ready what it needs.
 class OwnTexture : public osg::Referenced {
  public:
-  explicit OwnTexture(osg::ref_ptr<osg::Texture2D> texture) : texture_(std::move(texture)) {}
+  explicit OwnTexture(osg::Texture2D* texture) : texture_(texture) {}
   /// nullptr when a drawable names none.
   [[nodiscard]] static const osg::Texture2D* of(const osg::Drawable& drawable) {
     const auto* const own = dynamic_cast<const OwnTexture*>(drawable.getUserData());
     return own == nullptr ? nullptr : own->texture_.get();
   }
-
- protected:
-  ~OwnTexture() override = default;
 
  private:
   osg::ref_ptr<osg::Texture2D> texture_;

@@ -12,6 +12,7 @@
 #include "scenegraph/blending.h"
 #include "scenegraph/geometry.h"
 #include "scenegraph/known_bound.h"
+#include "scenegraph/pipeline/triangle_boxes.h"
 
 namespace stillframe::nodes {
 namespace {
@@ -70,7 +71,7 @@ MeshArrays::MeshArrays(const MeshData& mesh) {
     const MeshMaterial& material = mesh.materials[submesh.material];
     Part part;
     part.triangles = trianglesOf(std::span(mesh.indices).subspan(submesh.first_index, submesh.index_count));
-    part.box = boxOf(*part.triangles);
+    part.box = scenegraph::findTriangleBoxes(*part.triangles, *positions_);
     part.color = {material.color[0], material.color[1], material.color[2], material.color[3]};
     part.has_own_color = material.is_from_file || colors_.valid();
     if (material.texture >= 0 && uvs_.valid()) {
@@ -88,16 +89,8 @@ MeshArrays::MeshArrays(const TriangleMesh& mesh)
   setVertices(mesh.positions, mesh.normals);
   Part part;
   part.triangles = trianglesOf(mesh.triangles);
-  part.box = boxOf(*part.triangles);
+  part.box = scenegraph::findTriangleBoxes(*part.triangles, *positions_);
   parts_.push_back(std::move(part));
-}
-
-osg::BoundingBox MeshArrays::boxOf(const osg::DrawElementsUInt& triangles) const {
-  osg::BoundingBox box;
-  for (const unsigned index : triangles.asVector()) {
-    box.expandBy((*positions_)[index]);
-  }
-  return box;
 }
 
 void MeshArrays::setVertices(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals) {

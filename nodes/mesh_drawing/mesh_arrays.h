@@ -47,7 +47,6 @@ class MeshArrays {
     scenegraph::Color color;
     bool has_own_color = false;
   };
-  [[nodiscard]] osg::BoundingBox boxOf(const osg::DrawElementsUInt& triangles) const;
   void setVertices(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals);
 
   osg::ref_ptr<osg::Vec3Array> positions_;

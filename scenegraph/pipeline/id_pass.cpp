@@ -15,6 +15,7 @@
 #include "scenegraph/pipeline/drawable_slices.h"
 #include "scenegraph/pipeline/id_program.h"
 #include "scenegraph/pipeline/id_rays.h"
+#include "scenegraph/pipeline/triangle_boxes.h"
 
 namespace stillframe::scenegraph {
 namespace {
@@ -80,6 +81,17 @@ bool isOutside(const osg::BoundingBox& box, const osg::Matrixd& clip_from_local,
     outside &= beyond;
   }
   return outside != 0;
+}
+
+std::vector<std::uint32_t> runsWithin(std::span<const osg::BoundingBox> boxes, const osg::Matrixd& clip_from_local,
+                                      const IdPass::View& view) {
+  std::vector<std::uint32_t> runs;
+  for (std::size_t run = 0; run < boxes.size(); ++run) {
+    if (!isOutside(boxes[run], clip_from_local, view, 0.0)) {
+      runs.push_back(static_cast<std::uint32_t>(run));
+    }
+  }
+  return runs;
 }
 
 class DrawableCollector : public osg::NodeVisitor {
@@ -204,14 +216,15 @@ void IdPass::drawGl(const View& view, osg::RenderInfo& info) {
   }
   state.applyProjectionMatrix(new osg::RefMatrix(view.clip_from_eye));
   std::uint32_t number = 0;
+  runs_.clear();
   for (const IdDrawable& one : std::span(drawables_).first(drawnCount())) {
-    drawOne(one, ++number, info);
+    drawOne(one, view, ++number, info);
   }
   state.popAllStateSets();
   state.apply();
 }
 
-void IdPass::drawOne(const IdDrawable& one, std::uint32_t number, osg::RenderInfo& info) {
+void IdPass::drawOne(const IdDrawable& one, const View& view, std::uint32_t number, osg::RenderInfo& info) {
   osg::State& state = *info.getState();
   auto& drawable = const_cast<osg::Drawable&>(*one.path.back()->asDrawable());
   const Derived& derived = derive(programOf(one.path));
@@ -232,6 +245,11 @@ void IdPass::drawOne(const IdDrawable& one, std::uint32_t number, osg::RenderInf
     text->setEnableDepthWrites(true);
     drawable.draw(info);
     text->setEnableDepthWrites(false);
+  } else if (const auto [triangles, boxes] = triangleBoxesOf(drawable); triangles != nullptr) {
+    std::vector<std::uint32_t>& runs = runs_[number];
+    runs = runsWithin(boxes, one.eye_from_local * view.clip_from_eye, view);
+    const SomeTriangles some(*drawable.asGeometry(), *triangles, runs);
+    drawable.draw(info);
   } else {
     drawable.draw(info);
   }
@@ -256,7 +274,7 @@ bool IdPass::warm(osg::Group& root, const View& view, osg::RenderInfo& info, boo
   state.applyProjectionMatrix(new osg::RefMatrix(view.clip_from_eye));
   {
     const DrawableSlice few(const_cast<osg::Drawable&>(*cold->path.back()->asDrawable()), 0);
-    drawOne(*cold, 1, info);
+    drawOne(*cold, view, 1, info);
   }
   state.popAllStateSets();
   state.apply();
@@ -281,6 +299,12 @@ std::optional<std::vector<IdSample>> IdPass::draw(osg::Group& root, const View& 
     }
     drawGl(view, info);
     target_.read(ids, depths);
+    for (auto& [number, instance, primitive, vertex] : ids) {
+      if (const auto drawn_runs = runs_.find(number); drawn_runs != runs_.end()) {
+        constexpr std::uint32_t kRun = TriangleBoxes::kTriangles;
+        primitive = drawn_runs->second[primitive / kRun] * kRun + primitive % kRun;
+      }
+    }
   }
   castRays(view, drawn, ids, depths);
   const std::size_t first_cloud = drawables_.size();

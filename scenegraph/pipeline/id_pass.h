@@ -38,10 +38,9 @@ struct IdSample {
 /// back.
 ///
 /// Nothing is made before the first draw(): no target, no shader. What lies outside those pixels is left out before it
-/// is drawn: whole drawables by their boxes, points by the vertex shader. What answers rays (RayTarget) is asked
-/// instead. Rasterised as in the picture, for the
-/// viewport is the picture's, moved. Thread of the context only, with a context current; leaves another framebuffer
-/// bound.
+/// is drawn: whole drawables and runs of triangles (TriangleBoxes) by their boxes, points by the vertex shader. What
+/// answers rays (RayTarget) is asked instead. Rasterised as in the picture, for the viewport is the picture's, moved.
+/// Thread of the context only, with a context current; leaves another framebuffer bound.
 class IdPass {
  public:
   struct View {
@@ -77,7 +76,7 @@ class IdPass {
   void castRays(const View& view, std::size_t first, std::vector<gl::IdTarget::Id>& ids,
                 std::vector<float>& depths) const;
   void drawGl(const View& view, osg::RenderInfo& info);
-  void drawOne(const IdDrawable& one, std::uint32_t number, osg::RenderInfo& info);
+  void drawOne(const IdDrawable& one, const View& view, std::uint32_t number, osg::RenderInfo& info);
   void makeState(const View& view);
   struct Derived {
     osg::ref_ptr<const osg::Program> of;  // held, so that its address names it
@@ -92,6 +91,7 @@ class IdPass {
   osg::ref_ptr<osg::Uniform> is_point_;
   std::map<const osg::Program*, Derived> derived_;
   std::vector<IdDrawable> drawables_;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> runs_;  // that were drawn, of a drawable that was not whole
 };
 
 /// The samples in the order in which somebody who points at the cursor means them.

@@ -60,7 +60,7 @@ void main() { gl_FragColor = vec4(textureLod(u_texture, gl_FragCoord.xy / vec2(9
     osg::StateSet& state = *quad->getDrawable(0)->getOrCreateStateSet();
     state.setAttributeAndModes(program);
     if (is_own) {
-      quad->getDrawable(0)->setUserData(new OwnTexture(texture));
+      quad->getDrawable(0)->setUserData(new OwnTexture(texture.get()));
     } else {
       state.setTextureAttribute(0, texture);
     }

@@ -248,8 +248,10 @@ void IdPass::drawOne(const IdDrawable& one, const View& view, std::uint32_t numb
   } else if (const auto [triangles, boxes] = triangleBoxesOf(drawable); triangles != nullptr) {
     std::vector<std::uint32_t>& runs = runs_[number];
     runs = runsWithin(boxes, one.eye_from_local * view.clip_from_eye, view);
-    const SomeTriangles some(*drawable.asGeometry(), *triangles, runs);
-    drawable.draw(info);
+    if (!runs.empty()) {
+      const SomeTriangles some(*drawable.asGeometry(), *triangles, runs);
+      drawable.draw(info);
+    }
   } else {
     drawable.draw(info);
   }
@@ -274,7 +276,7 @@ bool IdPass::warm(osg::Group& root, const View& view, osg::RenderInfo& info, boo
   state.applyProjectionMatrix(new osg::RefMatrix(view.clip_from_eye));
   {
     const DrawableSlice few(const_cast<osg::Drawable&>(*cold->path.back()->asDrawable()), 0);
-    drawOne(*cold, view, 1, info);
+    drawOne(*cold, all, 1, info);
   }
   state.popAllStateSets();
   state.apply();

@@ -53,6 +53,11 @@ SceneWidget::SceneWidget(QWidget* parent)
 SceneWidget::~SceneWidget() {
   disconnect(context_watch_);
   dropPipeline();
+  if (is_context_usable_) {
+    makeCurrent();
+    debug_log_.uninstall();  // what GlView lets go of may have something to say
+    doneCurrent();
+  }
 }
 
 void SceneWidget::setDataset(std::shared_ptr<scenegraph::Dataset> dataset, scenegraph::Executor& executor) {
